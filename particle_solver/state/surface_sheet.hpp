@@ -1,0 +1,80 @@
+#pragma once
+// The wetted surface as the particles see it: one smooth sheet of bilinear quads that moves, answers hits with a finite
+// mass, and collects the impulse of a window. Rigid quads (infinite mass) continue it where the plate's cover begins.
+//
+// One contact per particle: the globally closest point of the sheet, ties to the lowest face. No seams, no double counting.
+// Effective mass at a point with bilinear weights N_a: 1/m_w = sum N_a^2 / m_a. An impulse J at the point is shared to the
+// nodes as N_a J (sum and moment exact) and changes the local node velocities by N_a J / m_a at once, so that later hits
+// in the same window meet a wall that already moves; the next exchange replaces that local answer.
+// Nodes follow the convention of media.hpp inside a sub-step: a hit at time t shifts the node's starting point.
+#include <span>
+#include <vector>
+
+#include "coupling/contract/surface.hpp"
+
+namespace standoff::particles {
+
+struct SheetOptions {
+  bool quarter = false;             // the mesh covers x >= 0, y >= 0 only
+  double surround_half_size = 0.0;  // m; > 0 adds a rigid ring from the mesh edge to this half width at the edge's height
+};
+
+/// A point of the sheet seen from a position in space.
+struct SheetPoint {
+  int face = -1;              // -1: none in reach
+  double xi = 0.0, eta = 0.0; // in [-1, 1]
+  Vec3 point, normal;         // m; unit normal towards the loaded side
+  Vec3 velocity;              // m/s of that point
+  double gap = 0.0;           // m, signed distance of the asked position along the normal
+  double inverse_mass = 0.0;  // 1/kg; 0 on rigid quads
+  bool rigid = false;         // part of the surround
+};
+
+/// Outcome of one impact.
+struct Impact {
+  Vec3 impulse;            // N s on the sheet; the particle takes the opposite
+  double work = 0.0;       // J given to the sheet
+  double loss = 0.0;       // J dissipated
+};
+
+class SurfaceSheet {
+ public:
+  SurfaceSheet(SurfaceMesh mesh, const SheetOptions& options);
+
+  /// Starts a window: nodes at `motion`. If `keep_pending`, the local answer of the previous window's load, which the
+  /// structure has not seen yet (parallel scheme), is added to the node velocities again; otherwise it is dropped.
+  void begin_window(const SurfaceMotion& motion, bool keep_pending);
+
+  /// Closest point of the sheet within `reach` of `position` at time t of the current sub-step.
+  SheetPoint closest(const Vec3& position, double reach, double t = 0.0) const;
+
+  /// First time in (t_from, t_to] at which a sphere x + v t of `radius` touches the sheet while approaching it; t_from if it
+  /// already touches and approaches. Swept, so nothing tunnels. False if none.
+  bool first_hit(const Vec3& x, const Vec3& v, double radius, double t_from, double t_to, double& t_hit,
+                 SheetPoint& where) const;
+
+  /// Highest position and speed bounds of the sheet for a cheap rejection: no point is above this z during the sub-step.
+  double highest(double t_to) const;
+
+  /// Normal impact with restitution e and Coulomb friction mu at time t of the sub-step; changes the particle's velocity and
+  /// the local node velocities, collects the nodal impulses. Momentum exact; energy exact for e = 1, mu = 0.
+  Impact collide(const SheetPoint& where, double mass, double restitution, double friction, double t, Vec3& velocity);
+  /// A force law's impulse (force times step) on the sheet at a point; work is impulse times mean wall velocity.
+  Impact push(const SheetPoint& where, const Vec3& impulse, double t);
+
+  /// End of a sub-step: nodes move on by h.
+  void drift(double h);
+
+  /// Window-averaged nodal forces of the plate's own nodes, and start collecting anew.
+  void collect_load(double window, SurfaceLoad& load);
+
+  std::size_t plate_nodes() const;
+  Vec3 total_impulse() const;        // N s on the plate's nodes since the start
+  Vec3 surround_impulse() const;     // N s on rigid-ring nodes since the start
+  double total_work() const;         // J given to the plate since the start
+  /// Impulse per plate node since the start [N s], for the impulse map.
+  std::span<const Vec3> node_impulse() const;
+  const SurfaceMesh& mesh() const;   // plate quads first, then the ring
+};
+
+}  // namespace standoff::particles

@@ -1,0 +1,47 @@
+#pragma once
+// Stage gas_collide: every hit of a gas particle within one sub-step, at its exact time.
+//
+// Mutual earliest partner: each particle finds the earliest hit on its present straight path (another gas particle, a grain,
+// the sheet, a mirror plane); a pair is resolved only if each is the other's earliest; then only touched particles look again,
+// until no hit is left in the sub-step. Each hit writes two particles owned by one pair: no races, no atomics, the same bits
+// for any number of threads. Pairs that already overlap and approach fire at once.
+#include <cstdint>
+#include <memory>
+
+#include "coupling/case/case_spec.hpp"
+#include "particle_solver/state/media.hpp"
+#include "particle_solver/state/surface_sheet.hpp"
+
+namespace standoff::particles {
+
+/// What one call did, and what the step control needs.
+struct GasCollideCounts {
+  long gas_hits = 0, sand_hits = 0, sheet_hits = 0, mirror_hits = 0;
+  int rounds = 0;
+  Vec3 mirror_impulse;          // N s given to the mirror planes
+  double plate_impulse = 0.0;   // N s given to the plate (not its rigid surround), positive away from the charge
+  double plate_incoming = 0.0;  // kg m/s of particles at their first contact, positive away from the charge
+};
+
+struct GasCollideOptions {
+  bool internal_energy = true;   // Larsen-Borgnakke exchange; off = elastic spheres, a gas of gamma 5/3
+  std::uint64_t seed = 1;
+  MirrorPlanes mirrors;
+  int threads = 1;
+};
+
+class GasCollide {
+ public:
+  explicit GasCollide(const GasCollideOptions& options);
+  ~GasCollide();
+  /// Resolves all hits in a sub-step of length h [s]; `sand` and `sheet` may be null. `step` numbers the call.
+  GasCollideCounts run(GasState& gas, SandState* sand, SurfaceSheet* sheet, double h, std::uint32_t step);
+  /// Next sub-step [s] from the state and from the rounds the last one needed; at most `cap`.
+  double suggest_step(const GasState& gas, const GasCollideCounts& last, double last_step, double cap) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace standoff::particles
