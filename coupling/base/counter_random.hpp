@@ -1,7 +1,7 @@
 #pragma once
-// Counter-based random numbers: a draw is a pure function of (seed, what it is for, who, when), so it does not depend on
-// the order in which particles are visited or on the number of threads.
-// Source: Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11 (2011): Philox4x32-10, sec. 3.3.
+// Counter-based random numbers: a draw is a pure function of (seed, what it is for, who, when), so it does not depend
+// on the order in which particles are visited or on the number of threads. Source: Salmon, Moraes, Dror, Shaw,
+// "Parallel random numbers: as easy as 1, 2, 3", SC11 (2011): Philox4x32-10, sec. 3.3.
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
-// Wall-clock seconds per stage of the time loop. The stage name is the file name and the row of the report; a stage that is
-// never registered has no row.
+// Wall-clock seconds per stage of the time loop. The stage name is the file name and the row of the report; a stage
+// that is never registered has no row.
 #include <chrono>
 #include <string>
 #include <vector>

@@ -7,11 +7,11 @@ namespace standoff {
 
 enum class ExitCode : int {
   done = 0,
-  check_failed = 1,        // done, but a comparison asked for failed
-  bad_case = 2,            // the case or the command line is wrong; nothing was started
-  guard = 3,               // stopped by a guard: unstable or non-physical
-  participant_lost = 4,    // a process died, froze or broke the protocol
-  out_of_resources = 5,    // time limit, memory or disk
+  check_failed = 1,      // done, but a comparison asked for failed
+  bad_case = 2,          // the case or the command line is wrong; nothing was started
+  guard = 3,             // stopped by a guard: unstable or non-physical
+  participant_lost = 4,  // a process died, froze or broke the protocol
+  out_of_resources = 5,  // time limit, memory or disk
   checkpoint_incompatible = 6,
   interrupted = 130,
 };
