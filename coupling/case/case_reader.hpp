@@ -10,18 +10,19 @@ namespace standoff {
 
 /// What the command line adds to a case file. Precedence: preset < use < case < level < set < the named options.
 struct CaseOverrides {
-  std::string level;                                       // "" = the case's own choice
-  std::vector<std::pair<std::string, std::string>> set;    // key, value as typed: --set plate.size="..." or run.until=2ms
-  std::string structure_model;                             // "" = as in the case
-  std::string seed;                                        // "" = as in the case
+  std::string level;                                     // "" = the case's own choice
+  std::vector<std::pair<std::string, std::string>> set;  // key, value as typed: --set plate.size="..." or run.until=2ms
+  std::string structure_model;                           // "" = as in the case
+  std::string seed;                                      // "" = as in the case
 };
 
 struct CaseRead {
-  CaseSpec spec;          // valid only if errors is empty
-  std::vector<std::string> errors;    // each "file:line:column: error: ..." possibly with indented hint lines
+  CaseSpec spec;                    // valid only if errors is empty
+  std::vector<std::string> errors;  // each "file:line:column: error: ..." possibly with indented hint lines
   std::vector<std::string> warnings;
-  std::string resolved;   // text of case.resolved.toml: every value in SI with its origin; reading it gives the same spec
-  std::string hash;       // fingerprint of all resolved inputs
+  std::string
+      resolved;      // text of case.resolved.toml: every value in SI with its origin; reading it gives the same spec
+  std::string hash;  // fingerprint of all resolved inputs
 };
 
 /// Reads CASE (a folder with case.toml, or a file). Never throws for a wrong case; every mistake is in `errors`.

@@ -55,7 +55,7 @@ struct AirSpec {
 };
 
 struct DomainSpec {
-  Vec3 lower, upper;              // m; particles that leave are removed and booked
+  Vec3 lower, upper;  // m; particles that leave are removed and booked
   std::string boundaries = "open";
 };
 
@@ -70,27 +70,27 @@ struct ContactSpec {
 struct MaterialSpec {
   std::string name, source;
   double density = 0.0, youngs_modulus = 0.0, poissons_ratio = 0.0;
-  double A = 0.0, B = 0.0, n = 1.0;            // Pa, Pa, -: (A + B p^n)
-  double C = 0.0, reference_rate = 1.0;        // -, 1/s
-  bool logarithmic_rate = false;               // 1 + C ln(rate) instead of (1 + rate)^C
-  double m = 1.0, room_temperature = 293.0, melting_temperature = 1e4;  // -, K, K
+  double A = 0.0, B = 0.0, n = 1.0;                                           // Pa, Pa, -: (A + B p^n)
+  double C = 0.0, reference_rate = 1.0;                                       // -, 1/s
+  bool logarithmic_rate = false;                                              // 1 + C ln(rate) instead of (1 + rate)^C
+  double m = 1.0, room_temperature = 293.0, melting_temperature = 1e4;        // -, K, K
   double specific_heat = 0.0, taylor_quinney = 0.0, thermal_expansion = 0.0;  // J/kgK, -, 1/K
 };
 
 struct PlateSpec {
   std::string model = "plate_hex64";
   MaterialSpec material;
-  Vec3 size;                             // m: width x, width y, thickness
+  Vec3 size;                               // m: width x, width y, thickness
   std::array<int, 3> elements{10, 10, 1};  // full plate
   std::string edges = "clamped";
-  std::string surround = "rigid";        // "rigid" | "open"
-  double surround_size = 0.613;          // m, side of the square cover plate
+  std::string surround = "rigid";  // "rigid" | "open"
+  double surround_size = 0.613;    // m, side of the square cover plate
 };
 
 struct RunSpec {
-  double stand_off = 0.0;   // m, charge centre to loaded face
-  double until = 0.0;       // s, end of the particle phase
-  bool settle = true;       // damped relaxation to rest afterwards
+  double stand_off = 0.0;  // m, charge centre to loaded face
+  double until = 0.0;      // s, end of the particle phase
+  bool settle = true;      // damped relaxation to rest afterwards
   std::uint64_t seed = 1;
   bool quarter_symmetry = true;
 };
@@ -103,13 +103,13 @@ struct CouplingSpec {
 };
 
 struct ObserveSpec {
-  double interval = 5e-6;   // s between rows of histories.csv
-  long snapshots = 20;      // frames of the PVD series over the particle phase
+  double interval = 5e-6;  // s between rows of histories.csv
+  long snapshots = 20;     // frames of the PVD series over the particle phase
 };
 
 /// One decision of the scene: an effect that is off costs no memory, no time and no timer row.
 struct EffectDecision {
-  std::string name;    // "friction", "damping", "heating", ...
+  std::string name;  // "friction", "damping", "heating", ...
   bool on = false;
   std::string reason;  // a sentence with its numbers, printed by `standoff plan`
   bool overridden = false;
@@ -124,9 +124,9 @@ struct ReferenceValue {
 
 struct CaseSpec {
   std::string name, title, question, source;
-  std::string folder;              // where case.toml lies
-  std::string level;               // chosen level, "" when the case has none
-  std::vector<std::string> levels; // all names, in order
+  std::string folder;               // where case.toml lies
+  std::string level;                // chosen level, "" when the case has none
+  std::vector<std::string> levels;  // all names, in order
   ChargeSpec charge;
   SoilSpec soil;
   AirSpec air;
