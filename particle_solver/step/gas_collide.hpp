@@ -1,10 +1,20 @@
 #pragma once
 // Stage gas_collide: every hit of a gas particle within one sub-step, at its exact time.
 //
-// Mutual earliest partner: each particle finds the earliest hit on its present straight path (another gas particle, a grain,
-// the sheet, a mirror plane); a pair is resolved only if each is the other's earliest; then only touched particles look again,
-// until no hit is left in the sub-step. Each hit writes two particles owned by one pair: no races, no atomics, the same bits
-// for any number of threads. Pairs that already overlap and approach fire at once.
+// Mutual earliest partner: each particle finds the earliest hit on its present straight path (another gas particle, a
+// grain, the sheet, a mirror plane); a pair is resolved only if each is the other's earliest; then only touched
+// particles look again, until no hit is left in the sub-step. Each hit writes two particles owned by one pair: no
+// races, no atomics, the same bits for any number of threads. Pairs that already overlap and approach fire at once.
+//
+// Causality. A path is valid from its body's last hit on, so a pair is tested from the later of the two last hits. A
+// hit that should have happened before that, because a third body deflected one of them too late to be seen, is not
+// invented afterwards: the pair overlaps then, and if it still approaches it fires at once. What is lost is the order
+// of hits that depend on each other within one sub-step; it vanishes with the step and is measured as the pressure Z
+// against Carnahan-Starling (tests/verification). Unreleased gas stands still and cannot be passed: it is a wall that
+// remembers the impulse it took (kernels/gas_release.hpp).
+//
+// Files: gas_work.hpp arrays; gas_load.cpp in and out of cell order; gas_search.cpp earliest hits; gas_resolve.cpp the
+// hits; gas_step_control.cpp the next step.
 #include <cstdint>
 #include <memory>
 
@@ -17,17 +27,23 @@ namespace standoff::particles {
 /// What one call did, and what the step control needs.
 struct GasCollideCounts {
   long gas_hits = 0, sand_hits = 0, sheet_hits = 0, mirror_hits = 0;
+  long unreleased_hits = 0;  // on gas that waits for the detonation
+  long early_releases = 0;   // waiting particles that were hit loose
+  long searches = 0;         // bodies that looked for their earliest hit, over all rounds
+  long deferred = 0;         // hits left for the next sub-step by the limit on rounds (gas_collide.cpp); normally 0
   int rounds = 0;
-  Vec3 mirror_impulse;          // N s given to the mirror planes
+  double pair_virial = 0.0;  // J, sum of impulse times centre distance over gas pairs: p V = N k T + virial / (3 time)
+  Vec3 mirror_impulse;       // N s given to the mirror planes
   double plate_impulse = 0.0;   // N s given to the plate (not its rigid surround), positive away from the charge
   double plate_incoming = 0.0;  // kg m/s of particles at their first contact, positive away from the charge
 };
 
 struct GasCollideOptions {
-  bool internal_energy = true;   // Larsen-Borgnakke exchange; off = elastic spheres, a gas of gamma 5/3
+  bool internal_energy = true;  // Larsen-Borgnakke exchange; off = elastic spheres, a gas of gamma 5/3
   std::uint64_t seed = 1;
   MirrorPlanes mirrors;
   int threads = 1;
+  double periodic_side = 0.0;  // m; > 0: a periodic cube of this side, gas only (material tests)
 };
 
 class GasCollide {

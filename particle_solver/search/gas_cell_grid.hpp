@@ -1,0 +1,107 @@
+#pragma once
+// Cells for the search of neighbours in a cloud that starts as a dense ball and ends thinner than air.
+//
+// The grid is folded: cell (i, j, k) of unbounded space is stored at (i mod nx, j mod ny, k mod nz). So it needs no
+// bounding box, its memory is a few cells a point whatever the cloud does, and a dense core keeps small cells while
+// fast outliers fly.
+//
+//        space   ..|0|1|2|3|4|5|6|7|8|9|..        Points far apart can share a stored cell. They show up as candidates
+//        and stored    |0|1|2|3|0|1|2|3|0|1|..        the exact test rejects them: a cost, never an error.
+//
+// Points are sorted by stored cell (counting sort, stable), x fastest: the cells of one x-row within reach are one run
+// of consecutive points. The same fold with nx = side / cell gives a periodic box for free.
+//
+// Data: start_[c] .. start_[c+1] are positions in the sorted order of the points in stored cell c; order()[p] is the
+// point.
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "coupling/base/vec3.hpp"
+
+namespace standoff::particles {
+
+class GasCellGrid {
+ public:
+  /// Chooses cells for about `count` points that will be asked for neighbours within `reach` [m]. `periodic_side` > 0:
+  /// a periodic cube of that side.
+  void shape(std::size_t count, double reach, double periodic_side = 0.0);
+
+  /// Sorts the points; afterwards order() lists them cell by cell.
+  void sort(std::span<const Vec3> points);
+  std::span<const std::uint32_t> order() const { return order_; }
+
+  /// Calls body(begin, end) with runs of the sorted order that together hold every point within `reach` of `centre`.
+  template <bool Periodic, class Body>
+  void visit(const Vec3& centre, double reach, Body&& body) const;
+
+ private:
+  static int floor_to_int(double x) { return static_cast<int>(std::floor(x)); }
+  static int modulo(int i, int n) {
+    const int rest = i % n;
+    return rest < 0 ? rest + n : rest;
+  }
+  template <bool Periodic>
+  static int fold(int i, int n) {
+    if constexpr (Periodic) return modulo(i, n);
+    return i & (n - 1);  // n is a power of two; right for negative i too
+  }
+  /// Distance from x to the cell [i, i+1] cell widths.
+  static double outside(double x, int i, double width) {
+    const double low = i * width - x, high = x - (i + 1) * width;
+    return low > 0.0 ? low : high > 0.0 ? high : 0.0;
+  }
+  std::uint32_t stored_cell(const Vec3& point) const;
+  template <class Body>
+  [[gnu::always_inline]] void visit_row(std::uint32_t row, int first, int last, Body&& body) const;
+
+  bool periodic_ = false;
+  int nx_ = 0, ny_ = 0, nz_ = 0;
+  Vec3 width_, inverse_width_;
+  std::vector<std::uint32_t> start_, cell_, order_;
+};
+
+template <class Body>
+inline void GasCellGrid::visit_row(std::uint32_t row, int first, int last, Body&& body) const {
+  // first and last are folded; a run that wraps round the end of the row comes in two parts.
+  const auto a = row + static_cast<std::uint32_t>(first), b = row + static_cast<std::uint32_t>(last) + 1;
+  if (a < b) {
+    if (start_[a] < start_[b]) body(start_[a], start_[b]);
+    return;
+  }
+  const auto end = row + static_cast<std::uint32_t>(nx_);
+  if (start_[a] < start_[end]) body(start_[a], start_[end]);
+  if (start_[row] < start_[b]) body(start_[row], start_[b]);
+}
+
+template <bool Periodic, class Body>
+void GasCellGrid::visit(const Vec3& centre, double reach, Body&& body) const {
+  const double square = reach * reach * (1.0 + 1e-12);
+  int z0 = floor_to_int((centre.z - reach) * inverse_width_.z),
+      z1 = floor_to_int((centre.z + reach) * inverse_width_.z);
+  int y0 = floor_to_int((centre.y - reach) * inverse_width_.y),
+      y1 = floor_to_int((centre.y + reach) * inverse_width_.y);
+  const bool whole_y = y1 - y0 >= ny_, whole_z = z1 - z0 >= nz_;  // more cells in reach than stored: each once
+  if (whole_z) z0 = 0, z1 = nz_ - 1;
+  if (whole_y) y0 = 0, y1 = ny_ - 1;
+  for (int z = z0; z <= z1; ++z) {
+    const double dz = whole_z ? 0.0 : outside(centre.z, z, width_.z);
+    for (int y = y0; y <= y1; ++y) {
+      const double dy = whole_y ? 0.0 : outside(centre.y, y, width_.y);
+      const double left = square - dz * dz - dy * dy;
+      if (left < 0.0) continue;
+      const double half = std::sqrt(left);
+      const int x0 = floor_to_int((centre.x - half) * inverse_width_.x);
+      const int x1 = floor_to_int((centre.x + half) * inverse_width_.x);
+      const auto row = static_cast<std::uint32_t>((fold<Periodic>(z, nz_) * ny_ + fold<Periodic>(y, ny_)) * nx_);
+      if (x1 - x0 + 1 >= nx_) {
+        visit_row(row, 0, nx_ - 1, body);
+      } else {
+        visit_row(row, fold<Periodic>(x0, nx_), fold<Periodic>(x1, nx_), body);
+      }
+    }
+  }
+}
+
+}  // namespace standoff::particles

@@ -1,0 +1,21 @@
+#pragma once
+// Stage detonate: lets gas particles go when the detonation front has reached them, t >= L / D [Borvik 2011, sec. 3.2].
+// Once none waits, the arrays of waiting are freed and later sub-steps do not test for them.
+#include "particle_solver/state/media.hpp"
+
+namespace standoff::particles {
+
+/// Releases what is due at `time` [s]; returns how many were released.
+long detonate(GasState& gas, double time);
+
+/// Momentum and energy of the gas; a particle that waits counts with m v0 + J and with all of its energy.
+struct GasTotals {
+  Vec3 momentum;          // kg m/s
+  double kinetic = 0.0;   // J
+  double internal = 0.0;  // J
+  double waiting = 0.0;   // J, kinetic (of the velocity-to-be) and internal, of unreleased particles
+  double energy() const { return kinetic + internal + waiting; }
+};
+GasTotals gas_totals(const GasState& gas);
+
+}  // namespace standoff::particles

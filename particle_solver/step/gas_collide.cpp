@@ -1,0 +1,54 @@
+#include "particle_solver/step/gas_collide.hpp"
+
+#include "coupling/base/stop.hpp"
+#include "particle_solver/kernels/larsen_borgnakke.hpp"
+#include "particle_solver/step/gas_work.hpp"
+
+namespace standoff::particles {
+namespace {
+
+// A sub-step needs 3 to 15 rounds. Only a jam (many spheres overlapping at one place and instant) could need hundreds;
+// what is left then overlaps in the next sub-step and fires at once, so nothing is lost but time.
+constexpr int most_rounds = 1000;
+
+// Neighbours in space are kept neighbours in memory by putting the state in cell order now and then.
+constexpr std::uint32_t calls_between_sorts = 32;
+
+}  // namespace
+
+struct GasCollide::Impl {
+  GasCollideOptions options;
+  gas::Work work;
+};
+
+GasCollide::GasCollide(const GasCollideOptions& options) : impl_(std::make_unique<Impl>()) {
+  impl_->options = options;
+}
+GasCollide::~GasCollide() = default;
+
+GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* sheet, double h, std::uint32_t step) {
+  GasCollideCounts counts;
+  if (gas.size() == 0) return counts;
+  gas::Work& work = impl_->work;
+  const GasCollideOptions& options = impl_->options;
+  if (options.periodic_side > 0.0 && (sand != nullptr || sheet != nullptr || options.mirrors.on))
+    throw Stop(ExitCode::guard, "gas_collide: a periodic box holds gas alone; give it no sand, sheet or mirror planes");
+  work.h = h, work.step = step, work.sheet = sheet;
+  work.seed = options.seed, work.threads = options.threads, work.mirrors = options.mirrors.on;
+  work.periodic_side = options.periodic_side;
+  work.zeta = options.internal_energy ? internal_degrees_of_freedom(gas.gamma) : 0.0;
+
+  gas::load(work, gas, sand);
+  for (work.round = 1; work.round <= most_rounds && !work.visit.empty(); ++work.round) {
+    counts.searches += static_cast<long>(work.visit.size());
+    gas::search(work);
+    gas::resolve(work, gas, counts);
+    gas::choose_visitors(work);
+  }
+  counts.rounds = work.round - 1;
+  if (!work.visit.empty()) counts.deferred = static_cast<long>(work.waiting.size());
+  gas::store(work, gas, sand, step % calls_between_sorts == 0);
+  return counts;
+}
+
+}  // namespace standoff::particles
