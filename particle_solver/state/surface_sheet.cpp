@@ -168,6 +168,10 @@ Impact SurfaceSheet::push(const SheetPoint& where, const Vec3& impulse, double t
   return impact;
 }
 
+Vec3 SurfaceSheet::velocity_at(const SheetPoint& where) const {
+  return answer(where.face, bilinear_weights(where.xi, where.eta)).velocity;
+}
+
 void SurfaceSheet::collect_load(double window, SurfaceLoad& load) {
   load.force.resize(plate_nodes_);
   for (std::size_t n = 0; n < plate_nodes_; ++n) load.force[n] = window_impulse_[n] / window;

@@ -74,6 +74,9 @@ class SurfaceSheet {
   /// A force law's impulse (force times step) on the sheet at a point; work is impulse times mean wall velocity.
   Impact push(const SheetPoint& where, const Vec3& impulse, double t);
 
+  /// Velocity of that point now, after the hits since `where` was found.
+  Vec3 velocity_at(const SheetPoint& where) const;
+
   /// End of a sub-step: nodes move on by h.
   void drift(double h);
 

@@ -1,0 +1,103 @@
+#include "particle_solver/step/surface_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <omp.h>
+
+namespace standoff::particles {
+
+SurfaceContactOptions surface_contact_options(const CaseSpec& spec, double stiffness, int threads) {
+  SurfaceContactOptions options;
+  options.spring = spec.contact.surface_law_is_soil;
+  options.impact = {spec.contact.surface_restitution, spec.contact.surface_friction};
+  options.soil = {stiffness, spec.soil.damping, spec.contact.surface_friction};
+  options.threads = threads;
+  return options;
+}
+
+SurfaceContact::SurfaceContact(const SurfaceContactOptions& options)
+    : options_(options), found_(static_cast<std::size_t>(std::max(1, options.threads))) {}
+
+template <bool EqualRadii>
+void SurfaceContact::find(const SandState& sand, const SurfaceSheet& sheet, double t) {
+  const double top = sheet.highest(t);
+  const auto grains = static_cast<std::ptrdiff_t>(sand.size());
+  const auto parts = static_cast<std::ptrdiff_t>(found_.size());
+#pragma omp parallel for schedule(static) num_threads(static_cast <int>(parts)) if (parts > 1)
+  for (std::ptrdiff_t part = 0; part < parts; ++part) {
+    std::vector<Touch>& found = found_[static_cast<std::size_t>(part)];
+    found.clear();
+    for (std::ptrdiff_t i = grains * part / parts; i < grains * (part + 1) / parts; ++i) {
+      const auto grain = static_cast<std::size_t>(i);
+      const double radius = EqualRadii ? sand.radius : sand.grain_radius[grain];
+      if (sand.position[grain].z > top + radius) continue;
+      const SheetPoint where = sheet.closest(sand.position[grain], radius, t);
+      if (where.face >= 0) found.push_back({static_cast<std::uint32_t>(grain), where});
+    }
+  }
+}
+
+void SurfaceContact::impact(const Touch& touch, SandState& sand, SurfaceSheet& sheet, double t,
+                            SurfaceContactCounts& counts) const {
+  const std::size_t i = touch.grain;
+  const double mass = sand.mass_of(i), incoming = -mass * sand.velocity[i].z;
+  const Impact hit =
+      sheet.collide(touch.where, mass, options_.impact.restitution, options_.impact.friction, t, sand.velocity[i]);
+  if (hit.impulse == Vec3{}) return;
+  ++counts.hits;
+  counts.loss += hit.loss;
+  if (touch.where.rigid) return;
+  counts.plate_impulse -= hit.impulse.z, counts.plate_work += hit.work;
+  if (std::isnan(sand.plate_rebound[i])) counts.plate_incoming += incoming;
+  sand.plate_rebound[i] = mass * sand.velocity[i].z;
+}
+
+void SurfaceContact::spring(const Touch& touch, SandState& sand, SurfaceSheet& sheet, double h, double t,
+                            SurfaceContactCounts& counts) const {
+  const std::size_t i = touch.grain;
+  const double mass = sand.mass_of(i), incoming = -mass * sand.velocity[i].z;
+  const double overlap = sand.radius_of(i) - touch.where.gap;
+  const Vec3 wall = sheet.velocity_at(touch.where), slip = sand.velocity[i] - wall;
+  const Vec3 force = surface_spring_force(options_.soil, overlap, slip, touch.where.normal, mass, h);
+  const double elastic_force = options_.soil.stiffness * overlap;
+  counts.elastic_energy += 0.5 * elastic_force * overlap;
+  if (force == Vec3{}) return;
+  const Impact hit = sheet.push(touch.where, force * -h, t);
+  sand.velocity[i] += force * (h / mass);
+  const Vec3 mean_slip = (slip + sand.velocity[i] - sheet.velocity_at(touch.where)) * 0.5;
+  ++counts.hits;
+  counts.loss -= dot(force - touch.where.normal * elastic_force, mean_slip) * h;  // dashpot and friction
+  if (touch.where.rigid) return;
+  counts.plate_impulse -= hit.impulse.z, counts.plate_work += hit.work;
+  if (std::isnan(sand.plate_rebound[i])) counts.plate_incoming += incoming;
+  sand.plate_rebound[i] = mass * sand.velocity[i].z;
+}
+
+template <bool Spring>
+SurfaceContactCounts SurfaceContact::resolve(SandState& sand, SurfaceSheet& sheet, double h, double t) const {
+  SurfaceContactCounts counts;
+  for (const std::vector<Touch>& part : found_)
+    for (const Touch& touch : part) {
+      const double radius = sand.radius_of(touch.grain);
+      counts.penetration_over_radius = std::max(counts.penetration_over_radius, 1.0 - touch.where.gap / radius);
+      if constexpr (Spring)
+        spring(touch, sand, sheet, h, t, counts);
+      else
+        impact(touch, sand, sheet, t, counts);
+    }
+  return counts;
+}
+
+SurfaceContactCounts SurfaceContact::run(SandState& sand, SurfaceSheet& sheet, double h, double sheet_time) {
+  if (sand.plate_rebound.size() != sand.size())
+    sand.plate_rebound.resize(sand.size(), std::numeric_limits<double>::quiet_NaN());
+  if (sand.grain_radius.empty())
+    find<true>(sand, sheet, sheet_time);
+  else
+    find<false>(sand, sheet, sheet_time);
+  return options_.spring ? resolve<true>(sand, sheet, h, sheet_time) : resolve<false>(sand, sheet, h, sheet_time);
+}
+
+}  // namespace standoff::particles
