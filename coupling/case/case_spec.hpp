@@ -21,6 +21,7 @@ struct Explosive {
   double gamma = 0.0;             // ratio of specific heats of the dilute products, 1 < gamma <= 5/3
   double fill = 0.0;              // volume of the spheres over volume of the explosive: the co-volume
   double detonation_speed = 0.0;  // m/s
+  friend bool operator==(const Explosive&, const Explosive&) = default;
 };
 
 struct ChargeSpec {
@@ -30,6 +31,7 @@ struct ChargeSpec {
   double radius = 0.0;  // m; mass and radius are independent inputs
   Vec3 detonator;       // m, point of ignition in the global frame
   long particles = 0;   // full charge
+  friend bool operator==(const ChargeSpec&, const ChargeSpec&) = default;
 };
 
 enum class SoilKind { none, dry, wet };
@@ -46,17 +48,20 @@ struct SoilSpec {
   double damping = 0.0;                           // fraction of critical, c = 2 xi sqrt(k m)
   double radius_spread = 0.0;                     // relative half width of the radius distribution
   long particles = 0;                             // full body
+  friend bool operator==(const SoilSpec&, const SoilSpec&) = default;
 };
 
 struct AirSpec {
   bool on = false;
   double pressure = 101300.0, density = 1.3, gamma = 1.4;
   long particles = 0;  // in the nominal 0.9 m3
+  friend bool operator==(const AirSpec&, const AirSpec&) = default;
 };
 
 struct DomainSpec {
   Vec3 lower, upper;  // m; particles that leave are removed and booked
   std::string boundaries = "open";
+  friend bool operator==(const DomainSpec&, const DomainSpec&) = default;
 };
 
 /// Sand on the plate: a restitution in 0..1, or the soil's own spring law.
@@ -64,6 +69,7 @@ struct ContactSpec {
   bool surface_law_is_soil = false;
   double surface_restitution = 0.0;
   double surface_friction = 0.0;
+  friend bool operator==(const ContactSpec&, const ContactSpec&) = default;
 };
 
 /// Constants of a plate material; see structure_solver/materials for the laws.
@@ -75,6 +81,7 @@ struct MaterialSpec {
   bool logarithmic_rate = false;                                              // 1 + C ln(rate) instead of (1 + rate)^C
   double m = 1.0, room_temperature = 293.0, melting_temperature = 1e4;        // -, K, K
   double specific_heat = 0.0, taylor_quinney = 0.0, thermal_expansion = 0.0;  // J/kgK, -, 1/K
+  friend bool operator==(const MaterialSpec&, const MaterialSpec&) = default;
 };
 
 struct PlateSpec {
@@ -85,6 +92,7 @@ struct PlateSpec {
   std::string edges = "clamped";
   std::string surround = "rigid";  // "rigid" | "open"
   double surround_size = 0.613;    // m, side of the square cover plate
+  friend bool operator==(const PlateSpec&, const PlateSpec&) = default;
 };
 
 struct RunSpec {
@@ -93,6 +101,7 @@ struct RunSpec {
   bool settle = true;      // damped relaxation to rest afterwards
   std::uint64_t seed = 1;
   bool quarter_symmetry = true;
+  friend bool operator==(const RunSpec&, const RunSpec&) = default;
 };
 
 enum class Scheme { parallel, serial };
@@ -100,11 +109,13 @@ struct CouplingSpec {
   Scheme scheme = Scheme::parallel;
   enum class Window { structure_step, fixed, automatic } window_rule = Window::automatic;
   double window = 0.0;  // s, with Window::fixed
+  friend bool operator==(const CouplingSpec&, const CouplingSpec&) = default;
 };
 
 struct ObserveSpec {
   double interval = 5e-6;  // s between rows of histories.csv
   long snapshots = 20;     // frames of the PVD series over the particle phase
+  friend bool operator==(const ObserveSpec&, const ObserveSpec&) = default;
 };
 
 /// One decision of the scene: an effect that is off costs no memory, no time and no timer row.
@@ -113,6 +124,7 @@ struct EffectDecision {
   bool on = false;
   std::string reason;  // a sentence with its numbers, printed by `standoff plan`
   bool overridden = false;
+  friend bool operator==(const EffectDecision&, const EffectDecision&) = default;
 };
 
 /// Published and measured figures shown beside ours; from reference.toml of the case.
@@ -120,6 +132,7 @@ struct ReferenceValue {
   std::string quantity;  // key below "results." of run.json
   std::string source;    // "paper, 10k/50k", "test", ...
   double value = 0.0;    // SI
+  friend bool operator==(const ReferenceValue&, const ReferenceValue&) = default;
 };
 
 struct CaseSpec {
@@ -143,6 +156,7 @@ struct CaseSpec {
   bool effect(const std::string& effect_name) const;
   /// Number of copies of the simulated part in the full domain: 4 or 1.
   int copies() const { return run.quarter_symmetry ? 4 : 1; }
+  friend bool operator==(const CaseSpec&, const CaseSpec&) = default;
 };
 
 }  // namespace standoff

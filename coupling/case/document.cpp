@@ -72,7 +72,7 @@ std::string Node::shown() const {
   if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const long long* integer = std::get_if<long long>(&value)) return std::to_string(*integer);
   if (const double* number = std::get_if<double>(&value)) return exact_text(*number);
-  if (const std::string* words = text()) return quoted(*words);
+  if (const std::string* words = text()) return in_quotes(*words);
   if (table()) return "{...}";
   if (std::holds_alternative<Other>(value)) return "a date or time";
   std::string list = "[";
@@ -121,7 +121,7 @@ Node read_typed_value(const std::string& text, const Place& place) {
   return node;
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   static constexpr char digits[] = "0123456789ABCDEF";
   std::string out = "\"";
   for (const char c : text) {

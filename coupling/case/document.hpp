@@ -41,6 +41,6 @@ std::optional<Node> read_document(const std::string& path, const std::string& sh
 Node read_typed_value(const std::string& text, const Place& place);
 
 /// `text` as a TOML string, quoted and escaped.
-std::string quoted(const std::string& text);
+std::string in_quotes(const std::string& text);
 
 }  // namespace standoff

@@ -336,7 +336,7 @@ std::string describe_dimension(const Dimension& dimension) {
   std::string text = "a quantity in";
   for (std::size_t i = 0; i < 4; ++i) {
     const int e = dimension.exponent[i];
-    if (e != 0) text += " " + std::string(base[i]) + (e == 1 ? "" : std::to_string(e));
+    if (e != 0) text.append(" ").append(base[i]).append(e == 1 ? "" : std::to_string(e));
   }
   return text;
 }
@@ -354,7 +354,7 @@ std::string exact_text(double value) {
 }
 
 std::string exact_text(double value, const Quantity& quantity) {
-  return exact_text(value) + (quantity.si.empty() ? "" : " " + std::string(quantity.si));
+  return exact_text(value).append(quantity.si.empty() ? "" : " ").append(quantity.si);
 }
 
 std::string readable_text(double value, const Quantity& quantity) {
@@ -373,7 +373,7 @@ std::string readable_text(double value, const Quantity& quantity) {
     }
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.6g", scaled);
-  return buffer + (unit.empty() ? "" : " " + std::string(prefix) + unit);
+  return std::string(buffer).append(unit.empty() ? "" : " ").append(prefix).append(unit);
 }
 
 }  // namespace standoff

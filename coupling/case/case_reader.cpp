@@ -1,0 +1,50 @@
+#include "coupling/case/case_reader.hpp"
+
+#include <map>
+
+#include "coupling/case/checks.hpp"
+#include "coupling/case/derive.hpp"
+#include "coupling/case/effect_rules.hpp"
+#include "coupling/case/layers.hpp"
+#include "coupling/case/resolved_text.hpp"
+
+namespace standoff {
+namespace {
+
+void decide(CaseSpec& spec, const Settings& settings, Diagnostics& diagnostics) {
+  std::map<std::string, bool> stated;
+  for (const std::string& name : effect_names())
+    if (const std::string word = settings.word("effects." + name); !word.empty()) stated[name] = word == "on";
+  EffectDecisions decisions = decide_effects(spec, stated);
+  spec.effects = std::move(decisions.effects);
+  for (const std::string& name : decisions.idle)
+    diagnostics.warning(settings.blame({"effects." + name}), name + " = \"on\" has nothing to act on and stays off");
+}
+
+}  // namespace
+
+CaseRead read_case(const std::string& path, const CaseOverrides& overrides) {
+  CaseRead result;
+  Diagnostics diagnostics;
+  Layers layers = read_layers(path, overrides, diagnostics);
+  if (layers.readable) {
+    Settings& settings = layers.settings;
+    settings.add("case.name", {layers.name, "name of the folder", {}, rank::fallback});
+    complete(settings, diagnostics);
+    CaseSpec spec = build_spec(settings);
+    spec.folder = layers.folder;
+    spec.references = layers.references;
+    check_scene(spec, settings, diagnostics);
+    if (!diagnostics.any_error()) {
+      decide(spec, settings, diagnostics);
+      result.resolved = resolved_text(spec, settings);
+      result.hash = case_fingerprint(spec, settings);
+      result.spec = std::move(spec);
+    }
+  }
+  result.errors = diagnostics.errors();
+  result.warnings = diagnostics.warnings();
+  return result;
+}
+
+}  // namespace standoff

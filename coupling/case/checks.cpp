@@ -1,0 +1,216 @@
+#include "coupling/case/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace standoff {
+namespace {
+
+// Bodies given as equal decimals may touch: 76.2 mm against 76.2 mm. One part in 1e9 is far above rounding and far
+// below any distance of interest.
+constexpr double touching = 1e-9;
+
+std::string mm(double metres) {
+  return readable_text(metres, quantity::length);
+}
+std::string seconds(double time) {
+  return readable_text(time, quantity::time);
+}
+
+class SceneCheck {
+ public:
+  SceneCheck(const CaseSpec& spec, const Settings& settings, Diagnostics& diagnostics)
+      : spec_(spec), settings_(settings), diagnostics_(diagnostics) {}
+
+  void run() {
+    if (spec_.charge.present) charge(), detonator();
+    if (spec_.soil.kind != SoilKind::none) sand();
+    stand_off();
+    plate();
+    domain();
+    times();
+    air();
+  }
+
+ private:
+  using Paths = std::vector<std::string>;
+
+  /// Nothing that a finding rests on may be missing or wrong already.
+  bool usable(const Paths& paths) const {
+    return std::all_of(paths.begin(), paths.end(),
+                       [this](const std::string& path) { return settings_.has(path) && !settings_.is_wrong(path); });
+  }
+  void finding(bool wrong, const Paths& paths, const std::string& message, const std::string& hint) {
+    if (wrong) diagnostics_.error(settings_.blame(paths), message, hint);
+  }
+
+  void charge() {
+    const ChargeSpec& c = spec_.charge;
+    const Paths size{"charge.radius", "charge.mass", "charge.explosive.density", "charge.explosive.fill"};
+    if (!usable(size)) return;
+    const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(c.radius, 3);
+    const double fill = c.explosive.fill * c.mass / c.explosive.density / sphere;
+    finding(fill > 0.74, {"charge.radius", "charge.mass", "charge.explosive.fill"},
+            fmt::format("the gas spheres do not fit into the charge: they would fill {:.2f} of radius = {}", fill,
+                        mm(c.radius)),
+            fmt::format("spheres fill at most 0.74; {} kg at {} kg/m3 is a sphere of {}", c.mass, c.explosive.density,
+                        mm(std::cbrt(0.75 * c.mass / c.explosive.density / std::numbers::pi))));
+    const double mean = c.mass / sphere;
+    if (fill <= 0.74 && mean > 1.01 * c.explosive.density)
+      diagnostics_.warning(settings_.blame(size),
+                           fmt::format("mass in radius gives {:.0f} kg/m3, denser than the explosive ({:.0f} kg/m3)",
+                                       mean, c.explosive.density));
+    const Paths cavity{"charge.radius", "charge.mass", "soil.inner_radius"};
+    if (spec_.soil.kind != SoilKind::none && usable(cavity))
+      finding(c.radius > spec_.soil.inner_radius * (1.0 + touching), cavity,
+              fmt::format("the charge is larger than its cavity: radius {} against inner_radius {}", mm(c.radius),
+                          mm(spec_.soil.inner_radius)),
+              "make the cavity larger or the charge smaller");
+  }
+
+  void detonator() {
+    const ChargeSpec& c = spec_.charge;
+    const Paths paths{"charge.detonator", "charge.radius", "run.stand_off"};
+    if (!usable(paths) || !settings_.word("charge.detonator").empty()) return;
+    const Vec3 centre{0.0, 0.0, spec_.run.stand_off};
+    const double distance = norm(c.detonator - centre);
+    finding(
+        distance > c.radius * (1.0 + touching), paths,
+        fmt::format("the detonator is outside the charge: {} from its centre, radius {}", mm(distance), mm(c.radius)),
+        "the charge centre is at (0, 0, stand_off); \"far pole\" and \"centre\" are always right");
+    finding(spec_.run.quarter_symmetry && (c.detonator.x != 0.0 || c.detonator.y != 0.0),
+            {"charge.detonator", "run.symmetry"}, "quarter symmetry needs the detonator on the z axis",
+            "run.symmetry = \"none\" computes everything");
+  }
+
+  void sand() {
+    const SoilSpec& s = spec_.soil;
+    const Paths radii{"soil.inner_radius", "soil.outer_radius"};
+    if (usable(radii))
+      finding(
+          s.inner_radius >= s.outer_radius, radii,
+          fmt::format("inner_radius {} is not smaller than outer_radius {}", mm(s.inner_radius), mm(s.outer_radius)),
+          "the sand is a shell between the two");
+    const Paths densities{"soil.packing", "soil.grain_density", "soil.bulk_density"};
+    if (usable(densities))
+      finding(std::abs(s.packing * s.grain_density / s.bulk_density - 1.0) > 1e-3, densities,
+              fmt::format("packing * grain_density = {:.6g} kg/m3, but bulk_density = {:.6g} kg/m3",
+                          s.packing * s.grain_density, s.bulk_density),
+              "state two of the three; the third follows");
+  }
+
+  void stand_off() {
+    const bool sand = spec_.soil.kind != SoilKind::none;
+    const double radius =
+        std::max(sand ? spec_.soil.outer_radius : 0.0, spec_.charge.present ? spec_.charge.radius : 0.0);
+    Paths paths{"run.stand_off"};
+    if (sand) paths.emplace_back("soil.outer_radius");
+    if (spec_.charge.present) paths.emplace_back("charge.radius");
+    if (radius == 0.0 || !usable(paths)) return;
+    finding(spec_.run.stand_off < radius * (1.0 - touching), paths,
+            fmt::format("the {} overlaps the plate: stand_off {} is smaller than its radius {}",
+                        sand && spec_.soil.outer_radius >= spec_.charge.radius ? "sand" : "charge",
+                        mm(spec_.run.stand_off), mm(radius)),
+            "stand_off is from the charge centre to the loaded face; equal to the radius means just touching");
+  }
+
+  void plate() {
+    const PlateSpec& p = spec_.plate;
+    const Paths mesh{"plate.elements", "run.symmetry"};
+    if (usable(mesh))
+      finding(spec_.run.quarter_symmetry && (p.elements[0] % 2 != 0 || p.elements[1] % 2 != 0), mesh,
+              fmt::format("quarter symmetry needs even numbers of elements along x and y, not {} and {}", p.elements[0],
+                          p.elements[1]),
+              "elements are counted over the full plate; the mirror planes cut it in halves");
+    const Paths heat{"plate.material.melting_temperature", "plate.material.room_temperature"};
+    if (usable(heat))
+      finding(p.material.melting_temperature <= p.material.room_temperature, heat,
+              fmt::format("melting_temperature {} K is not above room_temperature {} K", p.material.melting_temperature,
+                          p.material.room_temperature),
+              "strength falls from room to melting temperature");
+    const Paths cover{"plate.surround_size", "plate.size"};
+    if (usable(cover))
+      finding(p.surround == "rigid" && p.surround_size < std::max(p.size.x, p.size.y) * (1.0 - touching), cover,
+              fmt::format("the wall around the plate is smaller than the plate: surround_size {}, plate {} by {}",
+                          mm(p.surround_size), mm(p.size.x), mm(p.size.y)),
+              "surround_size is the outer side of the cover plate; surround = \"open\" leaves it out");
+  }
+
+  void domain() {
+    const Vec3 &low = spec_.domain.lower, &high = spec_.domain.upper;
+    const Paths corners{"domain.lower", "domain.upper"};
+    if (!usable(corners)) return;
+    if (const Setting* size = settings_.find("domain.size"))
+      for (const std::string& corner : corners)
+        if (const Setting* stated = settings_.find(corner); stated->rank == size->rank && stated->place != size->place)
+          return finding(true, {"domain.size"}, "domain is stated twice", "give size, or lower and upper");
+    check_side(0.5 * spec_.plate.size.x, low.x, high.x, "plate", "x", {"domain.lower", "domain.upper", "plate.size"});
+    check_side(0.5 * spec_.plate.size.y, low.y, high.y, "plate", "y", {"domain.lower", "domain.upper", "plate.size"});
+    const Paths behind{"domain.lower", "plate.size"};
+    if (usable(behind))
+      finding(low.z > -spec_.plate.size.z, behind,
+              fmt::format("the domain is smaller than the scene: it begins at z = {}, the plate reaches z = {}",
+                          mm(low.z), mm(-spec_.plate.size.z)),
+              "particles that leave the domain are removed");
+    const bool sand = spec_.soil.kind != SoilKind::none;
+    if (!sand && !spec_.charge.present) return;
+    const std::string body = sand ? "soil.outer_radius" : "charge.radius";
+    const double radius = sand ? spec_.soil.outer_radius : spec_.charge.radius;
+    check_side(radius, low.x, high.x, sand ? "sand" : "charge", "x", {"domain.lower", "domain.upper", body});
+    check_side(radius, low.y, high.y, sand ? "sand" : "charge", "y", {"domain.lower", "domain.upper", body});
+    const Paths above{"domain.upper", "run.stand_off", body};
+    const double top = spec_.run.stand_off + radius;
+    if (usable(above))
+      finding(high.z < top, above,
+              fmt::format("the domain is smaller than the scene: it ends at z = {}, the {} at z = {}", mm(high.z),
+                          sand ? "sand" : "charge", mm(top)),
+              "particles that leave the domain are removed");
+  }
+  void check_side(double half, double low, double high, const char* what, const char* axis, const Paths& paths) {
+    if (usable(paths))
+      finding(low > -half || high < half, paths,
+              fmt::format("the domain is smaller than the scene: {} from {} to {}, the {} reaches {} to each side",
+                          axis, mm(low), mm(high), what, mm(half)),
+              "particles that leave the domain are removed");
+  }
+
+  void times() {
+    const Paths window{"coupling.window", "run.until"};
+    if (usable(window))
+      finding(spec_.coupling.window_rule == CouplingSpec::Window::fixed && spec_.coupling.window > spec_.run.until,
+              window,
+              fmt::format("window {} is longer than the run, until = {}", seconds(spec_.coupling.window),
+                          seconds(spec_.run.until)),
+              "the two sides exchange once a window; \"auto\" chooses it");
+    const Paths rows{"observe.interval", "run.until"};
+    if (usable(rows))
+      finding(spec_.observe.interval > spec_.run.until, rows,
+              fmt::format("interval {} is longer than the run, until = {}", seconds(spec_.observe.interval),
+                          seconds(spec_.run.until)),
+              "histories.csv has a row every interval");
+  }
+
+  void air() {
+    const Setting* override_ = settings_.find("effects.air");
+    const bool stated = override_ && settings_.word("effects.air") == "on";
+    if (stated || spec_.air.on)
+      diagnostics_.error(settings_.blame(spec_.air.on ? Paths{"air.mode"} : Paths{"effects.air"}),
+                         "ambient air is not available in this version",
+                         "air.mode = \"off\" computes the charge in vacuum");
+  }
+
+  const CaseSpec& spec_;
+  const Settings& settings_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void check_scene(const CaseSpec& spec, const Settings& settings, Diagnostics& diagnostics) {
+  SceneCheck(spec, settings, diagnostics).run();
+}
+
+}  // namespace standoff
