@@ -1,0 +1,20 @@
+#pragma once
+// What this program was built from; written by coupling/launcher/launcher.cmake at build time, "unknown" without it.
+#include <map>
+#include <string>
+
+namespace standoff::launch {
+
+struct BuildFacts {
+  std::string version, git, compiler, flags;
+  std::map<std::string, std::string> libraries;
+  std::string source_folder;  // where the report scripts lie when the program runs from its build folder
+};
+
+const BuildFacts& build_facts();
+
+/// "AMD EPYC 7R13, 2 cores": from /proc/cpuinfo and the cores this process may use.
+std::string cpu_name();
+int usable_cores();
+
+}  // namespace standoff::launch

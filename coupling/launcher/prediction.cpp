@@ -1,0 +1,184 @@
+#include "coupling/launcher/prediction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace standoff::launch {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double gauss_points = 64.0;                                            // 4 x 4 x 4 in a cubic hexahedron
+constexpr double gas_bytes = 120.0, grain_bytes = 160.0, history_bytes = 160.0;  // a particle with its share of lists
+constexpr double gauss_point_bytes = 200.0, factor_bytes = 12e3;  // per Gauss point; of the factor, likewise
+
+double cube(double x) {
+  return x * x * x;
+}
+
+double speedup(int threads, const CostConstants& c) {
+  return 1.0 + c.thread_efficiency * (threads - 1);
+}
+
+double sound_speed(const MaterialSpec& m) {
+  const double nu = m.poissons_ratio;
+  return std::sqrt(m.youngs_modulus * (1.0 - nu) / (m.density * (1.0 + nu) * (1.0 - 2.0 * nu)));
+}
+
+Vec3 element_edges(const PlateSpec& plate) {
+  return {plate.size.x / plate.elements[0], plate.size.y / plate.elements[1], plate.size.z / plate.elements[2]};
+}
+
+void plan_structure(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+  const Vec3 edge = element_edges(spec.plate);
+  const double shortest = std::min({edge.x, edge.y, edge.z});
+  p.elements = static_cast<long>(spec.plate.elements[0]) * spec.plate.elements[1] * spec.plate.elements[2];
+  p.structure_step = c.structure_safety * c.hexahedron_courant * shortest / sound_speed(spec.plate.material);
+  p.structure_steps = std::ceil(spec.run.until / p.structure_step);
+  const double points = gauss_points * p.simulated(p.elements);
+  p.structure_s = p.structure_steps * points * c.gauss_point_step;
+  p.structure_bytes = points * gauss_point_bytes;
+  if (spec.run.settle) p.relaxation_s = c.relaxation_calls * points * c.relaxation_call;
+}
+
+void plan_windows(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+  const Vec3 edge = element_edges(spec.plate);
+  const MaterialSpec& m = spec.plate.material;
+  const double shear_speed = std::sqrt(m.youngs_modulus / (2.0 * (1.0 + m.poissons_ratio)) / m.density);
+  switch (spec.coupling.window_rule) {
+    case CouplingSpec::Window::structure_step:
+      p.window = p.structure_step;
+      break;
+    case CouplingSpec::Window::fixed:
+      p.window = spec.coupling.window;
+      break;
+    case CouplingSpec::Window::automatic:
+      p.window = std::min(edge.x, edge.y) / 3.0 / shear_speed;
+      break;
+  }
+  p.windows = std::ceil(spec.run.until / p.window * (1.0 - 1e-9));
+  const double nodes = (3.0 * spec.plate.elements[0] + 1) * (3.0 * spec.plate.elements[1] + 1) / p.copies;
+  const double bytes = nodes * 9.0 * sizeof(double);  // positions, velocities, forces
+  p.exchange_s = p.windows * (c.exchange_window + bytes * c.exchange_byte);
+  p.structure_steps = std::max(p.structure_steps, p.windows);
+}
+
+/// Speed of the boundary of the gas: its own head in vacuum, or the shell it drives.
+double bubble_speed(const CaseSpec& spec, double thermal_speed, double energy_per_mass) {
+  if (spec.soil.kind == SoilKind::none) return 2.0 * thermal_speed;
+  const double shell =
+      4.0 / 3.0 * pi * (cube(spec.soil.outer_radius) - cube(spec.soil.inner_radius)) * spec.soil.bulk_density;
+  return std::sqrt(2.0 * energy_per_mass / (shell / spec.charge.mass + 0.6));
+}
+
+void plan_gas(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+  const Explosive& e = spec.charge.explosive;
+  if (!spec.charge.present || spec.charge.particles <= 0) return;
+  p.charge_particles = spec.charge.particles;
+  const double count = static_cast<double>(spec.charge.particles);
+  const double solid = spec.charge.mass / e.density;
+  const double diameter = 2.0 * std::cbrt(3.0 * e.fill * solid / (4.0 * pi * count));
+  const double translational = std::min(1.0, 1.5 * (e.gamma - 1.0));
+  const double speed = std::sqrt(2.0 * translational * e.energy / e.density);
+  p.gas_step = std::min(p.window, c.gas_step_fraction * diameter / speed);
+
+  const double growth = bubble_speed(spec, speed, e.energy / e.density);
+  constexpr int pieces = 400;
+  const double piece = spec.run.until / pieces;
+  for (int i = 0; i < pieces; ++i) {
+    const double radius = spec.charge.radius + growth * (i + 0.5) * piece;
+    const double volume = 4.0 / 3.0 * pi * cube(radius);
+    const double path = volume / (std::numbers::sqrt2 * pi * diameter * diameter * count);
+    const double reach = std::max(c.gas_step_fraction * diameter, c.gas_path_fraction * path);
+    p.gas_steps += piece / std::min(p.window, reach / speed);
+  }
+  p.gas_s = p.gas_steps * p.simulated(p.charge_particles) * c.gas_particle_step;
+  p.particle_bytes += p.simulated(p.charge_particles) * gas_bytes;
+}
+
+void plan_sand(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+  const SoilSpec& soil = spec.soil;
+  if (soil.kind == SoilKind::none || soil.particles <= 0) return;
+  p.sand_particles = soil.particles;
+  const double volume =
+      4.0 / 3.0 * pi * (cube(soil.outer_radius) - cube(soil.inner_radius)) / static_cast<double>(soil.particles);
+  const double mass = volume * soil.bulk_density;
+  const double cell = std::cbrt(1000.0 * volume);
+  p.sand_step = std::min(p.window, c.sand_step_fraction * 2.0 * std::sqrt(mass / (soil.stiffness * cell)));
+  p.sand_steps = std::ceil(spec.run.until / p.sand_step);
+  double price = c.grain_step;
+  if (soil.friction > 0.0) price += c.grain_friction, p.particle_bytes += p.simulated(soil.particles) * history_bytes;
+  if (soil.damping > 0.0) price += c.grain_damping;
+  p.sand_s = p.sand_steps * p.simulated(soil.particles) * price;
+  p.packing_s = 1000.0 * c.packing_grain;
+  p.particle_bytes += p.simulated(soil.particles) * grain_bytes;
+}
+
+/// The side that computes longer gets the cores; in the parallel scheme both compute at the same time.
+void choose_threads(const CaseSpec& spec, int cores, CostPrediction& p) {
+  const double particles = p.gas_s + p.sand_s, structure = p.structure_s;
+  if (cores < 2 || spec.coupling.scheme == Scheme::serial || particles + structure <= 0.0) {
+    p.particle_threads = p.structure_threads = cores;
+    return;
+  }
+  const double share = structure / (particles + structure);
+  // A core for a side that is idle most of the time is wasted: below a fifth of a core it shares.
+  const int for_structure =
+      share * cores < 0.2 ? 0 : std::clamp(static_cast<int>(std::lround(share * cores)), 1, cores - 1);
+  p.structure_threads = std::max(1, for_structure);
+  p.particle_threads = std::max(1, cores - for_structure);
+}
+
+void add_wall(const CaseSpec& spec, int cores, const CostConstants& c, CostPrediction& p) {
+  const double particles = (p.gas_s + p.sand_s) / speedup(p.particle_threads, c);
+  const double structure = p.structure_s / speedup(p.structure_threads, c);
+  const bool at_once = spec.coupling.scheme == Scheme::parallel && cores > 1;
+  double loading = particles + structure;
+  if (at_once) loading = std::max({particles, structure, (p.gas_s + p.sand_s + p.structure_s) / speedup(cores, c)});
+  p.wall_s = c.start_up + p.packing_s + loading + p.exchange_s + p.relaxation_s / speedup(p.structure_threads, c);
+}
+
+/// Bytes and one-core seconds that go with an effect; what is not listed is free.
+EffectPrice price_of(const EffectDecision& effect, const CaseSpec& spec, const CostConstants& c,
+                     const CostPrediction& p) {
+  EffectPrice price{effect.name, effect.on, effect.reason, 0.0, 0.0};
+  if (!effect.on) return price;
+  const double grains = p.simulated(p.sand_particles), gas = p.simulated(p.charge_particles);
+  const double points = gauss_points * p.simulated(p.elements);
+  const std::string& name = effect.name;
+  if (name == "friction")
+    price.bytes = grains * history_bytes, price.seconds = p.sand_steps * grains * c.grain_friction;
+  if (name == "damping") price.seconds = p.sand_steps * grains * c.grain_damping;
+  if (name == "polydispersity" || name == "radius_spread") price.bytes = grains * 2.0 * sizeof(double);
+  if (name == "internal_energy") price.bytes = gas * sizeof(double), price.seconds = 0.1 * p.gas_s;
+  if (name == "plasticity") price.bytes = points * 10.0 * sizeof(double), price.seconds = 0.35 * p.structure_s;
+  if (name == "strain_rate") price.seconds = 0.08 * p.structure_s;
+  if (name == "heating") price.bytes = points * sizeof(double), price.seconds = 0.02 * p.structure_s;
+  if (name == "expansion" || name == "thermal_expansion") price.seconds = 0.01 * p.structure_s;
+  if (name == "relaxation" && spec.run.settle) price.bytes = points * factor_bytes, price.seconds = p.relaxation_s;
+  return price;
+}
+
+}  // namespace
+
+CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_threads, int structure_threads,
+                            const CostConstants& constants) {
+  CostPrediction p;
+  p.copies = spec.copies();
+  p.air_particles = spec.air.on ? spec.air.particles : 0;
+  plan_structure(spec, constants, p);
+  plan_windows(spec, constants, p);
+  plan_gas(spec, constants, p);
+  plan_sand(spec, constants, p);
+  choose_threads(spec, cores, p);
+  if (particle_threads > 0) p.particle_threads = particle_threads;
+  if (structure_threads > 0) p.structure_threads = structure_threads;
+  add_wall(spec, cores, constants, p);
+  for (const EffectDecision& effect : spec.effects) {
+    p.effects.push_back(price_of(effect, spec, constants, p));
+    if (effect.name == "relaxation") p.structure_bytes += p.effects.back().bytes;
+  }
+  return p;
+}
+
+}  // namespace standoff::launch

@@ -1,0 +1,38 @@
+#pragma once
+// log.txt for people, log.jsonl for programs: the same facts, each line with seconds since the start and who said it.
+#include <chrono>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace standoff::launch {
+
+/// A file that grows line by line; a full disk is Stop(out_of_resources), never a silently shorter file.
+class GrowingFile {
+ public:
+  explicit GrowingFile(const std::string& path);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+  void append(const std::string& text);
+
+ private:
+  std::string path_;
+  int fd_ = -1;
+};
+
+class RunLog {
+ public:
+  explicit RunLog(const std::string& folder);
+  /// A line somebody said: "launcher", "broker", "particles", "structure".
+  void line(const std::string& who, const std::string& text);
+  /// An event; its text goes to log.txt, the object with time and origin to log.jsonl.
+  void event(const std::string& who, const std::string& text, nlohmann::json object);
+
+ private:
+  double seconds() const;
+  std::chrono::steady_clock::time_point begin_;
+  GrowingFile text_, json_;
+};
+
+}  // namespace standoff::launch

@@ -1,0 +1,23 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "coupling/base/stop.hpp"
+#include "coupling/launcher/child_process.hpp"
+#include "coupling/launcher/run_folder.hpp"
+#include "coupling/launcher/run_session.hpp"
+#include "coupling/launcher/verbs.hpp"
+
+namespace standoff::launch {
+
+int run_verb(const RunOptions& options) {
+  const CaseRead read = read_case(options.case_path, options.overrides);
+  if (!print_diagnostics(read)) return static_cast<int>(ExitCode::bad_case);
+  for (const char* name : {"standoff-broker", "standoff-structure", "standoff-particles"}) program_path(name);
+  const std::string folder =
+      options.out.empty() ? new_run_folder("runs", read.spec.name, read.spec.level) : named_run_folder(options.out);
+  RunSession session(options, read, folder);
+  return session.run();
+}
+
+}  // namespace standoff::launch

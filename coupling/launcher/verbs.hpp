@@ -1,0 +1,57 @@
+#pragma once
+// The verbs of `standoff`, one function each. They return the exit code; a Stop they throw carries it.
+#include <string>
+#include <vector>
+
+#include "coupling/case/case_reader.hpp"
+
+namespace standoff::launch {
+
+struct ThreadOptions {
+  int both = 0, particles = 0, structure = 0;  // 0 = chosen by the launcher
+  int particle_count() const { return particles > 0 ? particles : both; }
+  int structure_count() const { return structure > 0 ? structure : both; }
+};
+
+struct RunOptions {
+  std::string case_path;
+  CaseOverrides overrides;
+  std::string out;
+  ThreadOptions threads;
+  double max_time = 0.0;  // s of wall clock, 0 = none
+  bool quiet = false, json = false;
+};
+int run_verb(const RunOptions& options);
+
+struct CheckOptions {
+  std::string case_path;
+  CaseOverrides overrides;
+  bool json = false;
+};
+int check_verb(const CheckOptions& options);
+
+struct PlanOptions {
+  std::string case_path;
+  CaseOverrides overrides;
+  ThreadOptions threads;
+  bool json = false;
+};
+int plan_verb(const PlanOptions& options);
+
+struct CostOptions {
+  std::string case_path;
+  CaseOverrides overrides;
+  std::vector<std::string> levels;  // empty: all that fit the budget
+  int seeds = 3;
+  double budget = 1800.0;  // s of predicted wall clock for all runs together
+  std::string out;
+  ThreadOptions threads;
+  double max_time = 0.0;
+  bool quiet = false;
+};
+int cost_verb(const CostOptions& options);
+
+/// Prints every error and warning on standard error; true if the case is good.
+bool print_diagnostics(const CaseRead& read);
+
+}  // namespace standoff::launch
