@@ -1,0 +1,140 @@
+#include "particle_solver/search/grain_cells.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "coupling/base/stop.hpp"
+
+namespace standoff::particles {
+
+namespace {
+
+/// Spreads the lowest 21 bits three places apart.
+std::uint64_t spread(std::uint64_t v) {
+  v &= 0x1FFFFF;
+  v = (v | v << 32) & 0x1F00000000FFFFull;
+  v = (v | v << 16) & 0x1F0000FF0000FFull;
+  v = (v | v << 8) & 0x100F00F00F00F00Full;
+  v = (v | v << 4) & 0x10C30C30C30C30C3ull;
+  return (v | v << 2) & 0x1249249249249249ull;
+}
+
+std::uint64_t morton(CellIndex c) {
+  return spread(static_cast<std::uint64_t>(c.x)) | spread(static_cast<std::uint64_t>(c.y)) << 1 |
+         spread(static_cast<std::uint64_t>(c.z)) << 2;
+}
+
+void bounds(std::span<const Vec3> points, Vec3& lower, Vec3& upper) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  lower = {infinity, infinity, infinity}, upper = -lower;
+  double check = 0.0;  // NaN and infinity survive a sum, not a minimum
+  for (const Vec3& p : points) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+    check += 0.0 * (p.x + p.y + p.z);
+  }
+  if (check != 0.0)
+    throw Stop(ExitCode::guard,
+               "sand: the position of a grain is not a finite number. The step was too large or a force is wrong; "
+               "look at the first time the energy balance breaks.");
+}
+
+int whole_cells(double length, double edge) {
+  return static_cast<int>(std::min(length / edge, 1e9));
+}
+
+}  // namespace
+
+void GrainCells::build(std::span<const Vec3> points, double cutoff, const Vec3* periodic_box) {
+  choose_grid(points, cutoff, periodic_box);
+  sort(points);
+}
+
+void GrainCells::choose_grid(std::span<const Vec3> points, double cutoff, const Vec3* periodic_box) {
+  periodic_ = periodic_box != nullptr;
+  Vec3 upper;
+  bounds(points, lower_, upper);
+  if (periodic_) {
+    box_ = *periodic_box, lower_ = {};
+    const auto along = [&](double length) { return std::min(std::max(1, whole_cells(length, cutoff)), 1 << 20); };
+    cells_ = {along(box_.x), along(box_.y), along(box_.z)};
+    per_edge_ = {cells_.x / box_.x, cells_.y / box_.y, cells_.z / box_.z};
+    edge_ = 1.0 / std::max({per_edge_.x, per_edge_.y, per_edge_.z});
+  } else {
+    const double most = 8.0 * static_cast<double>(points.size()) + 65536.0;
+    const Vec3 extent = points.empty() ? Vec3{} : upper - lower_;
+    const auto bricks_along = [](double length, double edge) { return std::floor(length / (4.0 * edge)) + 1.0; };
+    edge_ = cutoff;
+    while (bricks_along(extent.x, edge_) * bricks_along(extent.y, edge_) * bricks_along(extent.z, edge_) > most)
+      edge_ *= 2.0;
+    const auto along = [&](double length) { return 4 * static_cast<int>(bricks_along(length, edge_)); };
+    cells_ = {along(extent.x), along(extent.y), along(extent.z)};
+    per_edge_ = {1.0 / edge_, 1.0 / edge_, 1.0 / edge_};
+  }
+  grid_ = {(cells_.x + 3) / 4, (cells_.y + 3) / 4, (cells_.z + 3) / 4};
+}
+
+CellIndex GrainCells::cell_at(const Vec3& p) const {
+  if (periodic_) {
+    const auto along = [](double x, double length, double per_edge, int n) {
+      const int c = static_cast<int>((x - length * std::floor(x / length)) * per_edge);
+      return std::clamp(c, 0, n - 1);
+    };
+    return {along(p.x, box_.x, per_edge_.x, cells_.x), along(p.y, box_.y, per_edge_.y, cells_.y),
+            along(p.z, box_.z, per_edge_.z, cells_.z)};
+  }
+  const auto along = [](double x, double per_edge, int n) {
+    return std::clamp(static_cast<int>(x * per_edge), 0, n - 1);
+  };
+  return {along(p.x - lower_.x, per_edge_.x, cells_.x), along(p.y - lower_.y, per_edge_.y, cells_.y),
+          along(p.z - lower_.z, per_edge_.z, cells_.z)};
+}
+
+void GrainCells::sort(std::span<const Vec3> points) {
+  const std::size_t count = points.size();
+  const std::size_t slots =
+      static_cast<std::size_t>(grid_.x) * static_cast<std::size_t>(grid_.y) * static_cast<std::size_t>(grid_.z);
+  brick_at_.assign(slots, -1);
+  bricks_.clear();
+  point_slot_.resize(count), point_code_.resize(count), order_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const CellIndex c = cell_at(points[i]);
+    const CellIndex b = {c.x >> 2, c.y >> 2, c.z >> 2};
+    point_code_[i] = static_cast<std::uint8_t>(code_of(c.x, c.y, c.z));
+    point_slot_[i] = static_cast<std::uint32_t>(slot(b));
+    if (brick_at_[point_slot_[i]] < 0) {
+      brick_at_[point_slot_[i]] = 0;
+      bricks_.push_back({b, morton(b)});
+    }
+  }
+  std::sort(bricks_.begin(), bricks_.end(), [](const Brick& a, const Brick& b) { return a.morton < b.morton; });
+  for (std::size_t b = 0; b < bricks_.size(); ++b) brick_at_[slot(bricks_[b].at)] = static_cast<std::int32_t>(b);
+
+  // Counting sort by (brick, code); stable, so points of one cell keep the order they came in.
+  first_.assign(bricks_.size() * 64 + 1, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    point_slot_[i] = static_cast<std::uint32_t>(brick_at_[point_slot_[i]]) * 64 + point_code_[i];
+    ++first_[point_slot_[i] + 1];
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t i = 0; i < count; ++i) order_[next[point_slot_[i]]++] = static_cast<std::uint32_t>(i);
+}
+
+int GrainCells::find_brick(CellIndex b) const {
+  if (b.x < 0 || b.y < 0 || b.z < 0 || b.x >= grid_.x || b.y >= grid_.y || b.z >= grid_.z) return -1;
+  return brick_at_[slot(b)];
+}
+
+int GrainCells::find(CellIndex c, unsigned& code) const {
+  if (periodic_) {
+    const auto wrap = [](int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; };
+    c = {wrap(c.x, cells_.x), wrap(c.y, cells_.y), wrap(c.z, cells_.z)};
+  }
+  code = code_of(c.x, c.y, c.z);
+  // An arithmetic shift keeps -1 at -1, which find_brick refuses.
+  return find_brick({c.x >> 2, c.y >> 2, c.z >> 2});
+}
+
+}  // namespace standoff::particles

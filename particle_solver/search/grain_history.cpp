@@ -1,0 +1,107 @@
+#include "particle_solver/search/grain_history.hpp"
+
+#include <numeric>
+#include <unordered_map>
+
+namespace standoff::particles {
+
+namespace {
+
+/// Calls visit(i, j, spring) for every stretched spring, each contact once, as i against j with i < j.
+template <class Visit>
+void for_each_spring(const std::vector<GrainBlock>& blocks, Visit&& visit) {
+  for (const GrainBlock& block : blocks)
+    for (const PairList* list : {&block.inner, &block.rim})
+      for (std::size_t g = 0; g < list->stretched.size(); ++g) {
+        if (!list->stretched[g]) continue;
+        const SpringGroup& group = list->springs[g];
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+          const GrainPair pair = list->pairs[4 * g + lane];
+          const Vec3 spring{group.x[lane], group.y[lane], group.z[lane]};
+          if (pair.i < pair.j && squared_norm(spring) > 0.0) visit(pair.i, pair.j, spring);
+        }
+      }
+}
+
+}  // namespace
+
+void GrainHistory::count_starts(std::size_t count, std::span<const std::uint32_t> keys) {
+  start_.assign(count + 1, 0);
+  for (const std::uint32_t key : keys) ++start_[key + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  entries_.assign(keys.size(), {});
+}
+
+void GrainHistory::collect(const std::vector<GrainBlock>& blocks, std::size_t count) {
+  std::vector<std::uint32_t> keys;
+  std::vector<Entry> found;
+  for_each_spring(blocks, [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
+    keys.push_back(i);
+    found.push_back({j, false, spring});
+  });
+  count_starts(count, keys);
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  for (std::size_t e = 0; e < keys.size(); ++e) entries_[next[keys[e]]++] = found[e];
+}
+
+void GrainHistory::collect(std::span<const GrainSpring> springs, std::span<const std::uint32_t> ids) {
+  std::unordered_map<std::uint32_t, std::uint32_t> index_of;
+  for (std::size_t i = 0; i < ids.size(); ++i) index_of[ids[i]] = static_cast<std::uint32_t>(i);
+  std::vector<std::uint32_t> keys;
+  std::vector<Entry> found;
+  for (const GrainSpring& s : springs) {
+    const std::uint32_t a = index_of.at(s.first_id), b = index_of.at(s.second_id);
+    keys.push_back(std::min(a, b));
+    found.push_back({std::max(a, b), false, a < b ? s.spring : -s.spring});
+  }
+  count_starts(ids.size(), keys);
+  std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+  for (std::size_t e = 0; e < keys.size(); ++e) entries_[next[keys[e]]++] = found[e];
+}
+
+void GrainHistory::apply(PairList& list, std::span<const std::uint32_t> old_index, bool mark) {
+  for (std::size_t p = 0; p < list.count; ++p) {
+    const GrainPair pair = list.pairs[p];
+    const std::uint32_t a = old_index[pair.i], b = old_index[pair.j];
+    if (a == nobody || b == nobody) continue;
+    const std::uint32_t low = std::min(a, b), high = std::max(a, b);
+    for (std::uint32_t e = start_[low]; e < start_[low + 1]; ++e) {
+      Entry& entry = entries_[e];
+      if (entry.other != high) continue;
+      const Vec3 spring = a < b ? entry.spring : -entry.spring;
+      SpringGroup& group = list.springs[p / 4];
+      group.x[p % 4] = spring.x, group.y[p % 4] = spring.y, group.z[p % 4] = spring.z;
+      list.stretched[p / 4] = 1;
+      // A rim pair is listed from both sides; one of them marks, so that threads do not write the same flag.
+      if (mark || pair.i < pair.j) entry.found = true;
+      break;
+    }
+  }
+}
+
+void GrainHistory::apply(std::vector<GrainBlock>& blocks, std::span<const std::uint32_t> old_index, int threads) {
+  const auto count = static_cast<int>(blocks.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (int b = 0; b < count; ++b) {
+    apply(blocks[static_cast<std::size_t>(b)].inner, old_index, true);
+    apply(blocks[static_cast<std::size_t>(b)].rim, old_index, false);
+  }
+}
+
+double GrainHistory::finish() {
+  double lost = 0.0;
+  for (const Entry& entry : entries_)
+    if (!entry.found) lost += squared_norm(entry.spring);
+  start_.clear(), entries_.clear();
+  return lost;
+}
+
+std::vector<GrainSpring> stretched_springs(const std::vector<GrainBlock>& blocks, std::span<const std::uint32_t> ids) {
+  std::vector<GrainSpring> springs;
+  for_each_spring(blocks, [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
+    springs.push_back({ids[i], ids[j], spring});
+  });
+  return springs;
+}
+
+}  // namespace standoff::particles

@@ -1,0 +1,298 @@
+#include "particle_solver/step/sand_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <omp.h>
+
+#include "coupling/base/stop.hpp"
+#include "particle_solver/search/grain_cells.hpp"
+#include "particle_solver/search/grain_drift.hpp"
+#include "particle_solver/step/sand_pairs_pass.hpp"
+
+namespace standoff::particles {
+
+GrainLaw grain_law(const SoilSpec& soil, double cell_size) {
+  return {soil.stiffness * cell_size, soil.friction, soil.damping};
+}
+
+double recommended_step(const GrainLaw& law, double mass) {
+  return 0.05 * 2.0 * std::sqrt(mass / law.stiffness);
+}
+
+namespace {
+
+constexpr double first_skin = 0.15, thinnest_skin = 0.08, thickest_skin = 0.8;  // in diameters
+constexpr GrainRecord far_away{1e100, 1e100, 1e100, 0.0};
+
+std::size_t largest_id(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  std::uint32_t largest = 0;
+  for (const auto* ids : {&a, &b})
+    for (const std::uint32_t i : *ids) largest = std::max(largest, i);
+  return largest;
+}
+
+}  // namespace
+
+struct SandPairs::Impl {
+  explicit Impl(const SandPairsOptions& given) : options(given), box(given.periodic_box.value_or(Vec3{})) {}
+
+  bool same_grains(const SandState& sand) const;
+  void copy_in(const SandState& sand);
+  void moves_of_changed_set(const SandState& sand);
+  void measure(const SandState& sand);
+  void adapt_skin();
+  void make_lists(const SandState& sand, std::span<const Vec3> list_position);
+  PassInput pass_input(double dt) const;
+  void run_blocks(SandState& sand, double dt);
+  void close_books(const std::vector<PassSums>& sums, double dt, std::size_t count);
+
+  SandPairsOptions options;
+  Vec3 box, old_box, list_box;  // m, periodic: now, at the last call, when the list was made
+  GrainCells cells;
+  GrainDrift drift;
+  GrainHistory history;
+  std::vector<GrainBlock> blocks;
+  std::vector<std::uint32_t> id, old_index;           // sorted order
+  std::vector<GrainRecord> grains, moves, old_moves;  // sorted order
+  std::vector<Vec3> list_position;                    // sorted order, where the list was made
+  std::vector<std::vector<GrainRecord>> block_force;  // one a thread
+  bool radii = false, ready = false;
+  double mean_radius = 0.0, largest_radius = 0.0, lightest = 0.0, skin = 0.0;
+  long calls_since_list = 0;
+  Vec3 mirror_force;
+  SandBooks books;
+};
+
+bool SandPairs::Impl::same_grains(const SandState& sand) const {
+  if (!ready || sand.size() != id.size()) return false;
+  bool same = true;
+  const auto count = static_cast<long>(id.size());
+  const std::uint32_t* order = cells.order().data();
+#pragma omp parallel for schedule(static) reduction(&& : same) num_threads(options.threads)
+  for (long i = 0; i < count; ++i) same = same && sand.id[order[i]] == id[static_cast<std::size_t>(i)];
+  return same;
+}
+
+/// The shortest of a displacement and its periodic images.
+Vec3 shortest(const Vec3& d, const Vec3& box) {
+  return {d.x - box.x * nearest_integer(d.x / box.x), d.y - box.y * nearest_integer(d.y / box.y),
+          d.z - box.z * nearest_integer(d.z / box.z)};
+}
+
+/// New positions and what changed since the last call; boxes of displacements since the list was made.
+void SandPairs::Impl::copy_in(const SandState& sand) {
+  const bool periodic = options.periodic_box.has_value();  // a position may have been wrapped in between
+  const std::uint32_t* order = cells.order().data();
+  const auto regions = static_cast<long>(drift.regions().size());
+#pragma omp parallel for schedule(static) num_threads(options.threads)
+  for (long r = 0; r < regions; ++r) {
+    const GrainDrift::Region& region = drift.regions()[static_cast<std::size_t>(r)];
+    DriftBox region_box;
+    for (std::size_t i = region.begin; i < region.end; ++i) {
+      const Vec3 x = sand.position[order[i]];
+      GrainRecord& grain = grains[i];
+      Vec3 move = x - Vec3{grain.x, grain.y, grain.z}, since = x - list_position[i];
+      if (periodic) move = shortest(move, box), since = shortest(since, box);
+      moves[i].x = move.x, moves[i].y = move.y, moves[i].z = move.z;
+      grain.x = x.x, grain.y = x.y, grain.z = x.z;
+      region_box.add(Lanes{since.x, since.y, since.z, 0.0});
+    }
+    drift.box(static_cast<std::size_t>(r)) = region_box;
+  }
+}
+
+/// The same for a set of grains that was sorted anew, thinned or added to: found by id.
+void SandPairs::Impl::moves_of_changed_set(const SandState& sand) {
+  std::vector<std::uint32_t> place(largest_id(sand.id, id) + 1, GrainHistory::nobody);
+  for (std::size_t s = 0; s < sand.size(); ++s) place[sand.id[s]] = static_cast<std::uint32_t>(s);
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    if (place[id[i]] == GrainHistory::nobody) continue;
+    const Vec3 move = sand.position[place[id[i]]] - Vec3{grains[i].x, grains[i].y, grains[i].z};
+    moves[i].x = move.x, moves[i].y = move.y, moves[i].z = move.z;
+  }
+}
+
+/// What depends on the set of grains alone.
+void SandPairs::Impl::measure(const SandState& sand) {
+  const std::size_t count = sand.size();
+  if (sand.velocity.size() != count || sand.id.size() != count || sand.force.size() != count)
+    throw Stop(ExitCode::guard, "sand: position, velocity, force and id must have one entry per grain");
+  radii = !sand.grain_radius.empty() || !sand.grain_mass.empty();
+  mean_radius = sand.radius, largest_radius = sand.radius, lightest = sand.mass;
+  for (std::size_t i = 0; radii && i < count; ++i) {
+    largest_radius = std::max(i == 0 ? 0.0 : largest_radius, sand.radius_of(i));
+    lightest = i == 0 ? sand.mass_of(i) : std::min(lightest, sand.mass_of(i));
+  }
+  if (!(options.law.stiffness > 0.0) || !(mean_radius > 0.0) || !(lightest > 0.0))
+    throw Stop(ExitCode::guard, "sand: stiffness, grain radius and grain mass must be above zero");
+}
+
+/// Lists that last short are made thicker, lists that last long thinner; steps are counted, not seconds.
+void SandPairs::Impl::adapt_skin() {
+  const double diameter = 2.0 * mean_radius;
+  if (options.skin > 0.0)
+    skin = options.skin * diameter;
+  else if (books.list_builds == 0)
+    skin = first_skin * diameter;
+  else if (calls_since_list < 8)
+    skin = std::min(1.25 * skin, thickest_skin * diameter);
+  else if (calls_since_list > 30)
+    skin = std::max(skin / 1.15, thinnest_skin * diameter);
+}
+
+/// Sorts the grains and lists candidate pairs for where they are at `at` (in the order of SandState).
+void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at) {
+  const std::size_t count = sand.size(), old_count = id.size();
+  const bool springs = options.law.friction > 0.0;
+  std::vector<std::uint32_t> old_place(largest_id(sand.id, id) + 1, GrainHistory::nobody);
+  for (std::size_t i = 0; i < old_count; ++i) old_place[id[i]] = static_cast<std::uint32_t>(i);
+  if (springs && history.empty()) history.collect(blocks, old_count);
+
+  const Vec3* periodic = options.periodic_box ? &box : nullptr;
+  const double contact = 2.0 * largest_radius, cutoff = contact + skin;
+  cells.build(at, cutoff, periodic);
+  moves.swap(old_moves);
+  grains.assign(count + 1, far_away), moves.assign(count + 1, {});
+  id.resize(count), old_index.resize(count), list_position.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t s = cells.order()[i];
+    id[i] = sand.id[s], old_index[i] = old_place[id[i]], list_position[i] = at[s];
+    grains[i] = {at[s].x, at[s].y, at[s].z, sand.radius_of(s)};
+    if (old_index[i] != GrainHistory::nobody) moves[i] = old_moves[old_index[i]];
+    moves[i].w = 1.0 / sand.mass_of(s);
+  }
+  list_grain_pairs(cells, grains, {cutoff, skin, radii, springs, periodic, options.threads}, blocks);
+  if (springs && !history.empty()) {
+    history.apply(blocks, old_index, options.threads);
+    books.friction_loss += 0.5 * options.law.stiffness * history.finish();
+  }
+  drift.restart(cells, contact, skin);
+  list_box = box, calls_since_list = 0, ready = true;
+  ++books.list_builds;
+}
+
+PassInput SandPairs::Impl::pass_input(double dt) const {
+  PassInput in;
+  in.law = options.law;
+  in.grains = grains.data(), in.moves = moves.data();
+  in.reach = 2.0 * mean_radius;
+  in.dt = dt;
+  if (in.law.damping > 0.0) in.dashpot_per_step = dashpot_over_step(in.law, 2.0 / lightest, dt);
+  if (options.periodic_box) {
+    in.box = box, in.box_change = box - old_box;
+    in.per_box = {1.0 / box.x, 1.0 / box.y, 1.0 / box.z};
+  }
+  return in;
+}
+
+void SandPairs::Impl::run_blocks(SandState& sand, double dt) {
+  const PassInput in = pass_input(dt);
+  const RunBlock run =
+      choose_pass(options.law.friction > 0.0, options.law.damping > 0.0, radii, options.periodic_box.has_value());
+  std::vector<PassSums> sums(blocks.size());
+  block_force.resize(static_cast<std::size_t>(options.threads));
+  const auto count = static_cast<int>(blocks.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
+  for (int b = 0; b < count; ++b) {
+    GrainBlock& block = blocks[static_cast<std::size_t>(b)];
+    std::vector<GrainRecord>& force = block_force[static_cast<std::size_t>(omp_get_thread_num())];
+    force.assign(block.end - block.begin, {});
+    PassSums& sum = sums[static_cast<std::size_t>(b)];
+    sum = run(in, block, force.data());
+    if (options.mirrors.on) sum.add(run_mirrors(in, block, force.data()), 1.0);
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const GrainRecord& f = force[i - block.begin];
+      sand.force[cells.order()[i]] = {f.x, f.y, f.z};
+      sum.touching += f.w, sum.most_touching = std::max(sum.most_touching, f.w);
+    }
+  }
+  close_books(sums, dt, sand.size());
+}
+
+void SandPairs::Impl::close_books(const std::vector<PassSums>& sums, double dt, std::size_t count) {
+  PassSums all;
+  for (const PassSums& sum : sums) all.add(sum, 1.0);
+  books.elastic_energy = all.elastic;
+  books.friction_loss += all.friction_loss, books.damping_loss += all.damping_loss;
+  books.overlap_over_radius = all.largest_overlap / mean_radius;
+  books.max_overlap_over_radius = std::max(books.max_overlap_over_radius, books.overlap_over_radius);
+  // Each force acts in the half kick before and the one after its evaluation.
+  books.mirror_impulse += 0.5 * dt * (mirror_force + all.mirror_force);
+  mirror_force = all.mirror_force;
+  books.virial = all.virial;
+  books.coordination = count > 0 ? all.touching / static_cast<double>(count) : 0.0;
+  books.most_contacts = static_cast<int>(all.most_touching);
+  ++calls_since_list;
+}
+
+SandPairs::SandPairs(const SandPairsOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+SandPairs::~SandPairs() = default;
+SandPairs::SandPairs(SandPairs&&) noexcept = default;
+
+void SandPairs::forces(SandState& sand, double dt) {
+  Impl& my = *impl_;
+  if (!my.ready) my.old_box = my.box;
+  if (!my.same_grains(sand)) {
+    my.measure(sand);
+    my.moves_of_changed_set(sand);
+    if (!my.ready) my.adapt_skin();
+    my.make_lists(sand, sand.position);
+  } else {
+    my.copy_in(sand);
+    const Vec3 stretch = my.box - my.list_box;
+    if (my.drift.used(my.options.threads, norm(stretch)) > 1.0) {
+      my.adapt_skin();
+      my.make_lists(sand, sand.position);
+    }
+  }
+  my.run_blocks(sand, dt);
+  my.old_box = my.box;
+}
+
+const SandBooks& SandPairs::books() const {
+  return impl_->books;
+}
+
+double SandPairs::stable_step() const {
+  const double row_sum = impl_->options.law.stiffness * std::max(1, impl_->books.most_contacts);
+  return std::min(recommended_step(impl_->options.law, impl_->lightest),
+                  0.25 * std::sqrt(2.0 * impl_->lightest / row_sum));
+}
+
+void SandPairs::set_box(const Vec3& box) {
+  impl_->box = box;
+}
+
+SandPairsMemory SandPairs::memory(const SandState& sand) const {
+  const Impl& my = *impl_;
+  SandPairsMemory memory{std::vector<Vec3>(sand.size()),
+                         stretched_springs(my.blocks, my.id),
+                         my.books,
+                         my.skin,
+                         my.calls_since_list,
+                         my.mirror_force};
+  for (std::size_t i = 0; i < my.id.size(); ++i) memory.list_position[my.cells.order()[i]] = my.list_position[i];
+  return memory;
+}
+
+void SandPairs::restore(const SandState& sand, const SandPairsMemory& memory) {
+  Impl& my = *impl_;
+  my = Impl(my.options);
+  my.measure(sand);
+  my.skin = memory.skin;
+  my.old_box = my.box;
+  my.make_lists(sand, memory.list_position);
+  my.history.collect(memory.springs, my.id);
+  std::vector<std::uint32_t> same(my.id.size());
+  for (std::size_t i = 0; i < same.size(); ++i) same[i] = static_cast<std::uint32_t>(i);
+  my.history.apply(my.blocks, same, my.options.threads);
+  my.history.finish();
+  for (std::size_t i = 0; i < my.id.size(); ++i) {
+    const Vec3 x = sand.position[my.cells.order()[i]];
+    my.grains[i].x = x.x, my.grains[i].y = x.y, my.grains[i].z = x.z;
+  }
+  my.books = memory.books, my.calls_since_list = memory.calls_since_list, my.mirror_force = memory.mirror_force;
+}
+
+}  // namespace standoff::particles
