@@ -9,9 +9,9 @@
 // over is a touch less than resolution / 2 deep that the sphere has left again by itself; nothing can be passed
 // through. A sign change is closed in by Newton inside the bracket.
 //
-// L m/s > 0, lengths m, times s. Cost: one probe if c > L (t_to - t_from), about three for a hit, plus one for each
-// `resolution` of travel along the surface. Touching means c <= 1e-9 radius; approaching means rate < -1e-12 L, so that
-// a perfectly inelastic hit, which leaves a rate of rounding size, is not found again.
+// L m/s > 0, lengths m, times s. Cost: one probe if c > L (t_to - t_from), two or three for a hit or a near miss, plus
+// one for each `resolution` of travel along the surface beyond that. Touching means c <= 1e-9 radius; approaching means
+// rate < -1e-12 L, so that a perfectly inelastic hit, which leaves a rate of rounding size, is not found again.
 #include <algorithm>
 #include <cmath>
 
@@ -29,36 +29,57 @@ struct Clearance {
   double value = 0.0, rate = 0.0;
 };
 
+/// A probe's time and what it saw.
+struct SweepProbe {
+  double t = 0.0;
+  Clearance seen;
+};
+
+/// The next probe after `now`: a bold step if it proves right, else a cautious one.
+template <class Probe>
+SweepProbe sweep_step(const SweepLimits& limits, Probe&& probe, const SweepProbe& now, double touch, double calm) {
+  const double left = limits.t_to - now.t, safe = std::max(now.seen.value, 0.0) / limits.speed_bound;
+  const double grain = limits.resolution / limits.speed_bound;
+  const bool closing = now.seen.value > touch && now.seen.rate < -calm;
+  const double newton = closing ? std::max(safe, -now.seen.value / now.seen.rate) : left;
+  const double bold = std::min(newton, left), cautious = std::min(bold, safe + grain);
+  const auto look = [&](double step) {
+    const double t = step == left ? limits.t_to : std::max(now.t + step, std::nextafter(now.t, limits.t_to));
+    return SweepProbe{t, probe(t)};
+  };
+  if (bold > cautious && bold <= 4.0 * grain) {
+    const SweepProbe next = look(bold);
+    if (std::abs(next.seen.value - now.seen.value - now.seen.rate * bold) <= 0.2 * limits.resolution) return next;
+  }
+  return look(cautious);
+}
+
+/// The touch between a probe in front, at `low`, and one inside, `next`; ends inside if the clearance jumps.
+template <class Probe>
+SweepProbe sweep_close_in(Probe&& probe, double low, SweepProbe next, double touch) {
+  double high = next.t;
+  for (int i = 0; i < 100 && std::abs(next.seen.value) > touch; ++i) {
+    (next.seen.value > 0.0 ? low : high) = next.t;
+    const double newton = next.t - next.seen.value / next.seen.rate;
+    const double guess = newton > low && newton < high && i < 50 ? newton : 0.5 * (low + high);
+    if (!(guess > low && guess < high)) break;  // neighbouring numbers
+    next = {guess, probe(guess)};
+  }
+  return next.seen.value > touch ? SweepProbe{high, probe(high)} : next;
+}
+
 /// First touch in [t_from, t_to]; `probe(t)` is last called at the time returned. False if there is none.
 template <class Probe>
 bool sweep_to_contact(const SweepLimits& limits, Probe&& probe, double& t_hit) {
   const double touch = 1e-9 * limits.radius, calm = 1e-12 * limits.speed_bound;
-  const double grain = limits.resolution / limits.speed_bound;
-  double t = limits.t_from;
-  Clearance now = probe(t);
+  SweepProbe now{limits.t_from, probe(limits.t_from)};
   while (true) {
-    if (now.value <= touch && now.rate < -calm) return t_hit = t, true;
-    const double left = limits.t_to - t, safe = std::max(now.value, 0.0) / limits.speed_bound;
-    if (!(left > 0.0) || safe > left) return false;
-    double step = safe + grain;
-    if (now.value > touch && now.rate < -calm) step = std::min(step, std::max(safe, -now.value / now.rate));
-    double next_t = std::min(t + step, limits.t_to);
-    if (!(next_t > t)) next_t = std::nextafter(t, limits.t_to);
-    Clearance next = probe(next_t);
-    if (now.value > touch && next.value < -touch) {  // passed the touch: close in on it
-      double low = t, high = next_t;
-      for (int i = 0; i < 100 && std::abs(next.value) > touch; ++i) {
-        (next.value > 0.0 ? low : high) = next_t;
-        const double newton = next_t - next.value / next.rate;
-        const bool inside = newton > low && newton < high && i < 50;
-        const double guess = inside ? newton : 0.5 * (low + high);
-        if (!(guess > low && guess < high)) break;  // neighbouring numbers: the clearance jumps here
-        next_t = guess;
-        next = probe(next_t);
-      }
-      if (next.value > touch) next_t = high, next = probe(high);
-    }
-    t = next_t, now = next;
+    if (now.seen.value <= touch && now.seen.rate < -calm) return t_hit = now.t, true;
+    const double left = limits.t_to - now.t;
+    if (!(left > 0.0) || now.seen.value > limits.speed_bound * left) return false;
+    SweepProbe next = sweep_step(limits, probe, now, touch, calm);
+    if (now.seen.value > touch && next.seen.value < -touch) next = sweep_close_in(probe, now.t, next, touch);
+    now = next;
   }
 }
 

@@ -15,14 +15,6 @@ std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-template <class Box>
-double squared_distance(const Box& box, const Vec3& p) {
-  const double dx = std::max({box.lower.x - p.x, p.x - box.upper.x, 0.0});
-  const double dy = std::max({box.lower.y - p.y, p.y - box.upper.y, 0.0});
-  const double dz = std::max({box.lower.z - p.z, p.z - box.upper.z, 0.0});
-  return dx * dx + dy * dy + dz * dz;
-}
-
 /// Angle-weighted normal of a quad at a corner: the sign of offset . (sum over the faces around a node) is the side a
 /// position is on (Baerentzen, Aanaes, IEEE TVCG 11 (2005) 243, theorem 1).
 Vec3 corner_normal(const std::array<Vec3, 4>& x, std::size_t corner) {
@@ -57,9 +49,9 @@ SurfaceSearch::SurfaceSearch(const SurfaceMesh& mesh, SurfaceTopology topology)
     ++counted;
   }
   smallest_edge_ = shortest;
-  bin_size_ = std::sqrt(area / static_cast<double>(counted));
+  bin_size_ = 0.5 * std::sqrt(area / static_cast<double>(counted));
   widen_ = 0.5 * bin_size_;
-  box_.resize(quads_.size());
+  box_.resize(quads_.size()), hull_.resize(quads_.size());
   rebuild(mesh.position);
 }
 
@@ -67,15 +59,29 @@ void SurfaceSearch::rebuild(std::span<const Vec3> position) {
   reference_.assign(position.begin(), position.end());
   for (std::size_t f = 0; f < quads_.size(); ++f) {
     Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-    for (const std::int32_t n : quads_[f]) {
-      const Vec3& x = reference_[at(n)];
+    std::array<Vec3, 4> corner;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3& x = corner[i] = reference_[at(quads_[f][i])];
       box.lower = {std::min(box.lower.x, x.x), std::min(box.lower.y, x.y), std::min(box.lower.z, x.z)};
       box.upper = {std::max(box.upper.x, x.x), std::max(box.upper.y, x.y), std::max(box.upper.z, x.z)};
     }
-    box_[f] = box;
+    box_[f] = box, hull_[f] = hull(corner);
   }
   lay_bins();
   fill_bins();
+}
+
+SurfaceSearch::Hull SurfaceSearch::hull(const std::array<Vec3, 4>& corner) {
+  const BilinearQuad quad = bilinear_quad(corner);
+  Hull hull{quad.centre, quad.along_xi / std::max(norm(quad.along_xi), 1e-300), {}, quad.normal(0.0, 0.0), 0, 0, 0};
+  hull.axis2 = cross(hull.normal, hull.axis1);
+  for (const Vec3& x : corner) {  // the patch lies in the convex hull of its corners
+    const Vec3 d = x - hull.centre;
+    hull.half1 = std::max(hull.half1, std::abs(dot(d, hull.axis1)));
+    hull.half2 = std::max(hull.half2, std::abs(dot(d, hull.axis2)));
+    hull.half_normal = std::max(hull.half_normal, std::abs(dot(d, hull.normal)));
+  }
+  return hull;
 }
 
 void SurfaceSearch::lay_bins() {
@@ -87,6 +93,7 @@ void SurfaceSearch::lay_bins() {
   }
   x0_ -= widen_, y0_ -= widen_, x1 += widen_, y1 += widen_;
   while ((x1 - x0_) * (y1 - y0_) > 4e6 * bin_size_ * bin_size_) bin_size_ *= 2.0;
+  inverse_bin_ = 1.0 / bin_size_;
   nx_ = static_cast<int>((x1 - x0_) / bin_size_) + 1, ny_ = static_cast<int>((y1 - y0_) / bin_size_) + 1;
 }
 
@@ -123,7 +130,7 @@ std::array<Vec3, 4> SurfaceSearch::corners(const SheetMotion& motion, std::int32
 }
 
 SurfaceSearch::Range SurfaceSearch::bins_within(const Vec3& p, double widen) const {
-  const double inverse = 1.0 / bin_size_, ax = (p.x - widen - x0_) * inverse, bx = (p.x + widen - x0_) * inverse;
+  const double inverse = inverse_bin_, ax = (p.x - widen - x0_) * inverse, bx = (p.x + widen - x0_) * inverse;
   const double ay = (p.y - widen - y0_) * inverse, by = (p.y + widen - y0_) * inverse;
   if (!(bx >= 0.0 && by >= 0.0 && ax < nx_ && ay < ny_)) return {0, 0, 0, 0, true};
   return {static_cast<int>(std::max(ax, 0.0)), static_cast<int>(std::min(bx, nx_ - 1.0)),
@@ -143,16 +150,22 @@ void SurfaceSearch::search_bin(std::size_t bin, const SheetMotion& motion, const
     best.face = face, best.foot = foot;
     distance = std::sqrt(foot.squared_distance);
   };
+  std::array<double, 16> kept;  // hull distances; the few bins with more faces look twice
+  const auto hull_distance = [&](const std::int32_t* f) { return hull_[at(*f)].squared_distance(position); };
   const std::int32_t* nearest = begin;  // the face below the position first: it usually rules the others out
-  double nearest_box = infinity;
-  for (const std::int32_t* f = begin; f != end; ++f)
-    if (const double d2 = squared_distance(box_[at(*f)], position); d2 < nearest_box) nearest = f, nearest_box = d2;
-  if (nearest_box > (distance + slack) * (distance + slack)) return;
+  double nearest_hull = infinity;
+  for (const std::int32_t* f = begin; f != end; ++f) {
+    const double d2 = hull_distance(f);
+    if (const auto k = static_cast<std::size_t>(f - begin); k < kept.size()) kept[k] = d2;
+    if (d2 < nearest_hull) nearest = f, nearest_hull = d2;
+  }
+  if (nearest_hull > (distance + slack) * (distance + slack)) return;
   if (*nearest != best.face) try_face(*nearest);
   for (const std::int32_t* f = begin; f != end; ++f) {
     if (f == nearest || *f == best.face) continue;
+    const auto k = static_cast<std::size_t>(f - begin);
     const double open = (distance + slack) * (1.0 + 1e-9);
-    if (squared_distance(box_[at(*f)], position) <= open * open) try_face(*f);
+    if ((k < kept.size() ? kept[k] : hull_distance(f)) <= open * open) try_face(*f);
   }
 }
 

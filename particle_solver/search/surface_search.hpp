@@ -1,12 +1,14 @@
 #pragma once
-// Closest point of the moving sheet. Broad phase: bins over x, y list the faces whose bounding box, widened by half a
-// face, touches the bin; one bin answers a short query, O(1). Narrow phase: feet on the listed faces, nearest box
-// first, so that folds are seen from all their faces and the answer is the globally closest point.
+// Closest point of the moving sheet. Broad phase: bins of half a face over x, y list the faces whose bounding box,
+// widened by a quarter face, touches the bin; one bin answers a short query, O(1). Narrow phase: feet on the listed
+// faces, nearest hull first, so that folds are seen from all their faces and the answer is the globally closest point.
 //
-//   bins        +--+--+--+      boxes are those of the last rebuild; `slack`, a bound on how far any node has moved
-//   since,
+//   bins        +--+--+--+      boxes and hulls are those of the last rebuild; `slack`, a bound on how far any node has
+//   moved since,
 //               |  |##|##|      widens every test, so an answer is exact at any time and a rebuild only restores speed
 //               +--+--+--+
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -50,6 +52,19 @@ class SurfaceSearch {
   struct Box {
     Vec3 lower, upper;
   };
+  /// A face's bounding box along its own axes: as tight on a tilted face as on a level one.
+  struct Hull {
+    Vec3 centre, axis1, axis2, normal;
+    double half1, half2, half_normal;
+    double squared_distance(const Vec3& p) const {
+      const Vec3 d = p - centre;
+      const double a = std::max(std::abs(dot(d, axis1)) - half1, 0.0);
+      const double b = std::max(std::abs(dot(d, axis2)) - half2, 0.0);
+      const double c = std::max(std::abs(dot(d, normal)) - half_normal, 0.0);
+      return a * a + b * b + c * c;
+    }
+  };
+  static Hull hull(const std::array<Vec3, 4>& corner);
   struct Range {
     int x0, x1, y0, y1;
     bool empty;
@@ -67,9 +82,10 @@ class SurfaceSearch {
   SurfaceTopology topology_;
   std::vector<Vec3> reference_;
   std::vector<Box> box_;                     // by face
+  std::vector<Hull> hull_;                   // by face
   std::vector<double> bin_low_, bin_high_;   // z range of a bin's faces
   std::vector<std::int32_t> first_, faces_;  // CSR: faces of bin b in ascending order
-  double smallest_edge_ = 0.0, bin_size_ = 0.0, widen_ = 0.0, x0_ = 0.0, y0_ = 0.0;
+  double smallest_edge_ = 0.0, bin_size_ = 0.0, inverse_bin_ = 0.0, widen_ = 0.0, x0_ = 0.0, y0_ = 0.0;
   int nx_ = 0, ny_ = 0;
 };
 

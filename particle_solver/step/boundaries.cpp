@@ -47,12 +47,16 @@ Boundaries::Limits Boundaries::limits(const SurfaceSheet* sheet) const {
   Limits limits{options_.lower, options_.upper, infinity, infinity, -infinity, -infinity};
   if (options_.quarter) limits.lower.x = limits.lower.y = -infinity;
   if (sheet == nullptr) return limits;
+  const std::vector<Vec3>& rest = sheet->mesh().position;
   limits.outline_x = limits.outline_y = 0.0;
-  for (const Vec3& x : sheet->mesh().position) {
+  for (const Vec3& x : rest) {
     limits.outline_x = std::max(limits.outline_x, std::abs(x.x));
     limits.outline_y = std::max(limits.outline_y, std::abs(x.y));
-    limits.edge_height = std::max(limits.edge_height, x.z);
   }
+  const double inner = 1.0 - 1e-9;
+  for (const Vec3& x : rest)
+    if (std::abs(x.x) >= inner * limits.outline_x || std::abs(x.y) >= inner * limits.outline_y)
+      limits.edge_height = std::max(limits.edge_height, x.z);
   limits.lowest = sheet->lowest(0.0);
   return limits;
 }
