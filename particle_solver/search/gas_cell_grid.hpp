@@ -85,21 +85,17 @@ void GasCellGrid::visit(const Vec3& centre, double reach, Body&& body) const {
   const bool whole_y = y1 - y0 >= ny_, whole_z = z1 - z0 >= nz_;  // more cells in reach than stored: each once
   if (whole_z) z0 = 0, z1 = nz_ - 1;
   if (whole_y) y0 = 0, y1 = ny_ - 1;
+  const int x0 = floor_to_int((centre.x - reach) * inverse_width_.x);
+  const int x1 = floor_to_int((centre.x + reach) * inverse_width_.x);
+  const bool whole_x = x1 - x0 + 1 >= nx_;
+  const int first = whole_x ? 0 : fold<Periodic>(x0, nx_), last = whole_x ? nx_ - 1 : fold<Periodic>(x1, nx_);
   for (int z = z0; z <= z1; ++z) {
     const double dz = whole_z ? 0.0 : outside(centre.z, z, width_.z);
     for (int y = y0; y <= y1; ++y) {
       const double dy = whole_y ? 0.0 : outside(centre.y, y, width_.y);
-      const double left = square - dz * dz - dy * dy;
-      if (left < 0.0) continue;
-      const double half = std::sqrt(left);
-      const int x0 = floor_to_int((centre.x - half) * inverse_width_.x);
-      const int x1 = floor_to_int((centre.x + half) * inverse_width_.x);
+      if (dz * dz + dy * dy > square) continue;
       const auto row = static_cast<std::uint32_t>((fold<Periodic>(z, nz_) * ny_ + fold<Periodic>(y, ny_)) * nx_);
-      if (x1 - x0 + 1 >= nx_) {
-        visit_row(row, 0, nx_ - 1, body);
-      } else {
-        visit_row(row, fold<Periodic>(x0, nx_), fold<Periodic>(x1, nx_), body);
-      }
+      visit_row(row, first, last, body);
     }
   }
 }

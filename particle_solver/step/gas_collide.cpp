@@ -1,5 +1,7 @@
 #include "particle_solver/step/gas_collide.hpp"
 
+#include <algorithm>
+
 #include "coupling/base/stop.hpp"
 #include "particle_solver/kernels/larsen_borgnakke.hpp"
 #include "particle_solver/step/gas_work.hpp"
@@ -14,11 +16,20 @@ constexpr int most_rounds = 1000;
 // Neighbours in space are kept neighbours in memory by putting the state in cell order now and then.
 constexpr std::uint32_t calls_between_sorts = 32;
 
+int rounds_until_most(const std::vector<long>& hits_by_round) {
+  if (hits_by_round.empty() || hits_by_round.back() == 0) return 0;
+  const double most = 0.98 * static_cast<double>(hits_by_round.back());
+  const auto done = std::find_if(hits_by_round.begin(), hits_by_round.end(),
+                                 [&](long hits) { return static_cast<double>(hits) >= most; });
+  return static_cast<int>(done - hits_by_round.begin()) + 1;
+}
+
 }  // namespace
 
 struct GasCollide::Impl {
   GasCollideOptions options;
   gas::Work work;
+  std::vector<long> hits_by_round;  // in all, after each round
 };
 
 GasCollide::GasCollide(const GasCollideOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -38,14 +49,18 @@ GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* s
   work.periodic_side = options.periodic_side;
   work.zeta = options.internal_energy ? internal_degrees_of_freedom(gas.gamma) : 0.0;
 
+  std::vector<long>& hits_by_round = impl_->hits_by_round;
+  hits_by_round.clear();
   gas::load(work, gas, sand);
   for (work.round = 1; work.round <= most_rounds && !work.visit.empty(); ++work.round) {
     counts.searches += static_cast<long>(work.visit.size());
     gas::search(work);
     gas::resolve(work, gas, counts);
     gas::choose_visitors(work);
+    hits_by_round.push_back(counts.hits());
   }
   counts.rounds = work.round - 1;
+  counts.usual_rounds = rounds_until_most(hits_by_round);
   if (!work.visit.empty()) counts.deferred = static_cast<long>(work.waiting.size());
   gas::store(work, gas, sand, step % calls_between_sorts == 0);
   return counts;

@@ -31,11 +31,14 @@ struct GasCollideCounts {
   long early_releases = 0;   // waiting particles that were hit loose
   long searches = 0;         // bodies that looked for their earliest hit, over all rounds
   long deferred = 0;         // hits left for the next sub-step by the limit on rounds (gas_collide.cpp); normally 0
-  int rounds = 0;
+  int rounds = 0;            // until nothing was left: the longest chain of hits that depend on each other
+  int usual_rounds = 0;      // until 98 % of the hits were done: does not grow with the number of particles
   double pair_virial = 0.0;  // J, sum of impulse times centre distance over gas pairs: p V = N k T + virial / (3 time)
   Vec3 mirror_impulse;       // N s given to the mirror planes
   double plate_impulse = 0.0;   // N s given to the plate (not its rigid surround), positive away from the charge
   double plate_incoming = 0.0;  // kg m/s of particles at their first contact, positive away from the charge
+
+  long hits() const { return gas_hits + sand_hits + sheet_hits + mirror_hits + unreleased_hits; }
 };
 
 struct GasCollideOptions {
@@ -52,7 +55,9 @@ class GasCollide {
   ~GasCollide();
   /// Resolves all hits in a sub-step of length h [s]; `sand` and `sheet` may be null. `step` numbers the call.
   GasCollideCounts run(GasState& gas, SandState* sand, SurfaceSheet* sheet, double h, std::uint32_t step);
-  /// Next sub-step [s] from the state and from the rounds the last one needed; at most `cap`.
+  /// Next sub-step [s] from the state and from the rounds the last one needed; at most `cap`. `last_step` is what this
+  /// function returned before (0 at first), also when a shorter step was then taken to end a window: growth builds on
+  /// it.
   double suggest_step(const GasState& gas, const GasCollideCounts& last, double last_step, double cap) const;
 
  private:

@@ -8,6 +8,7 @@
 // since the distance falls until tau = -b/a. That needs no root and no division; the few that are kept go through the
 // exact kernel. Reading a run four at a time may look past its end: those are bodies like any other, so they do no
 // harm, and `pad` bodies at rest far away close the arrays.
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -38,7 +39,8 @@ class Lanes {
   static constexpr std::size_t pad = 4;
 
   void resize(std::size_t count) {
-    for (auto* values : {&x, &y, &z, &vx, &vy, &vz, &since}) values->assign(count + pad, 0.0);
+    for (auto* values : {&x, &y, &z, &vx, &vy, &vz, &since}) values->resize(count + pad);
+    for (auto* values : {&y, &z, &vx, &vy, &vz, &since}) std::fill(values->end() - pad, values->end(), 0.0);
     for (std::size_t k = count; k < count + pad; ++k) x[k] = 1e30;
   }
   void set(std::size_t p, const Vec3& start, const Vec3& velocity, double last_hit) {
@@ -48,6 +50,7 @@ class Lanes {
   }
 
   std::vector<double> x, y, z, vx, vy, vz, since;
+  std::vector<double> contact;  // m, centre distance at contact with gas; grains only, filled by the owner
 };
 
 /// What a search compares four candidates with.
@@ -57,23 +60,27 @@ struct Probe {
   double side = 0.0;  // of the periodic cube
 };
 
+enum class Partner { gas, gas_in_periodic_cube, grain };
+
 /// Bit l is set if body p + l is hit in time.
-template <bool Periodic>
+template <Partner Kind>
 [[gnu::always_inline]] inline int hit_in_time(const Lanes& lanes, std::size_t p, const Probe& me) {
   Pack rx = load_pack(&lanes.x[p]) - me.start.x, ry = load_pack(&lanes.y[p]) - me.start.y,
        rz = load_pack(&lanes.z[p]) - me.start.z;
   const Pack wx = load_pack(&lanes.vx[p]) - me.velocity.x, wy = load_pack(&lanes.vy[p]) - me.velocity.y,
              wz = load_pack(&lanes.vz[p]) - me.velocity.z;
-  if constexpr (Periodic) {
+  if constexpr (Kind == Partner::gas_in_periodic_cube) {
     const double inverse = 1.0 / me.side;
     rx -= me.side * nearest_whole(rx * inverse), ry -= me.side * nearest_whole(ry * inverse),
         rz -= me.side * nearest_whole(rz * inverse);
   }
+  Pack contact = pack(me.contact);
+  if constexpr (Kind == Partner::grain) contact = load_pack(&lanes.contact[p]);
   const Pack other = load_pack(&lanes.since[p]), mine = pack(me.since);
   const Pack from = other > mine ? other : mine;
   rx += wx * from, ry += wy * from, rz += wz * from;
   const Pack a = wx * wx + wy * wy + wz * wz, b = rx * wx + ry * wy + rz * wz,
-             c = rx * rx + ry * ry + rz * rz - me.contact * me.contact;
+             c = rx * rx + ry * ry + rz * rz - contact * contact;
   const Pack tau = me.until - from, a_tau = a * tau;
   const PackMask meets = (c <= 0.0) | ((b * b > a * c) & (((a_tau + 2.0 * b) * tau + c <= 0.0) | (a_tau > -b)));
   const PackMask keep = (b < 0.0) & (tau >= 0.0) & meets;

@@ -68,12 +68,16 @@ void load_grains(Work& work, const SandState& sand) {
   work.grain_grid.shape(count, contact + work.excursion_grain + work.excursion);
   work.grain_grid.sort(work.middle);
   work.grain.resize(count);
+  work.grain_lanes.resize(count);
+  work.grain_lanes.contact.assign(count + Lanes::pad, 0.0);
   for (std::size_t q = 0; q < count; ++q) {
     const Index k = work.grain_grid.order()[q], i = work.near_grain[k];
     Grain& grain = work.grain[q];
     grain = {};
     grain.start = sand.position[i], grain.velocity = sand.velocity[i], grain.binned = work.middle[k];
     grain.radius = sand.radius_of(i), grain.inverse_mass = 1.0 / sand.mass_of(i), grain.source = i;
+    work.grain_lanes.set(q, grain.start, grain.velocity, 0.0);
+    work.grain_lanes.contact[q] = work.radius + grain.radius;
   }
 }
 

@@ -14,7 +14,7 @@ namespace standoff::particles::gas {
 namespace {
 
 // A pair costs about 0.3 us; fewer than this are not worth waking threads for. No effect on bits.
-constexpr std::size_t worth_threads = 256;
+constexpr std::size_t worth_threads = 1000;
 
 struct Pair {
   Index i, j;
@@ -142,6 +142,7 @@ void resolve_grains(Work& work, const std::vector<Index>& grains, GasCollideCoun
     touch(work, p);
     grain.touched_in = work.round;
     work.touched_grains.push_back(q);
+    work.grain_lanes.set(q, grain.start, grain.velocity, grain.since);
   }
   counts.sand_hits += static_cast<long>(grains.size());
 }

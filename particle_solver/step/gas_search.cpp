@@ -11,7 +11,7 @@ namespace {
 
 // Fewer visitors than this are searched by one thread: waking the others costs more (tens of microseconds). No effect
 // on bits.
-constexpr std::size_t worth_threads = 256;
+constexpr std::size_t worth_threads = 1000;
 
 /// Order of two possible hits of one body on gas: by time, ties by the ids of the pair. The same pair compares the same
 /// from either side, so a ring of simultaneous hits always has a first pair, and the rounds cannot lock.
@@ -24,6 +24,7 @@ bool earlier_pair(double time, Index id, Index other, double than_time, Index th
 /// Earliest hit of body p on other gas.
 template <bool Periodic>
 void look_at_gas(Work& work, Index p) {
+  constexpr Partner kind = Periodic ? Partner::gas_in_periodic_cube : Partner::gas;
   const Body& me = work.body[p];
   Probe probe{me.start, me.velocity, me.since, 2.0 * work.radius, work.h, work.periodic_side};
   Index partner = nobody;
@@ -40,7 +41,7 @@ void look_at_gas(Work& work, Index p) {
   work.grid.visit<Periodic>(
       middle_of_path(me.start, me.velocity, me.since, work.h), reach, [&](Index begin, Index end) {
         for (Index q = begin; q < end; q += 4)
-          for (int hits = hit_in_time<Periodic>(work.lanes, q, probe); hits != 0; hits &= hits - 1)
+          for (int hits = hit_in_time<kind>(work.lanes, q, probe); hits != 0; hits &= hits - 1)
             if (const Index k = q + static_cast<Index>(std::countr_zero(static_cast<unsigned>(hits))); k < end) look(k);
       });
   if (partner != nobody)
@@ -50,19 +51,22 @@ void look_at_gas(Work& work, Index p) {
 void look_at_grains(Work& work, Index p) {
   const Body& me = work.body[p];
   Choice& choice = work.choice[p];
+  Probe probe{me.start, me.velocity, me.since, 0.0, std::min(choice.time, work.h), 0.0};
+  const auto look = [&](Index q) {
+    const Grain& grain = work.grain[q];
+    const double time = impact_time(grain.start - me.start, grain.velocity - me.velocity, work.radius + grain.radius,
+                                    std::max(me.since, grain.since), probe.until);
+    if (!(time < choice.time)) return;
+    probe.until = time;
+    choice = {time, q, Hit::grain};
+  };
   const double reach =
       work.radius + work.largest_grain + half_path(me.velocity, me.since, work.h) + work.excursion_grain;
-  double best = std::min(choice.time, work.h);
   work.grain_grid.visit<false>(
       middle_of_path(me.start, me.velocity, me.since, work.h), reach, [&](Index begin, Index end) {
-        for (Index q = begin; q < end; ++q) {
-          const Grain& grain = work.grain[q];
-          const double time = impact_time(grain.start - me.start, grain.velocity - me.velocity,
-                                          work.radius + grain.radius, std::max(me.since, grain.since), best);
-          if (!(time < choice.time)) continue;
-          best = time;
-          choice = {time, q, Hit::grain};
-        }
+        for (Index q = begin; q < end; q += 4)
+          for (int hits = hit_in_time<Partner::grain>(work.grain_lanes, q, probe); hits != 0; hits &= hits - 1)
+            if (const Index k = q + static_cast<Index>(std::countr_zero(static_cast<unsigned>(hits))); k < end) look(k);
       });
 }
 
@@ -85,13 +89,6 @@ void look_at_sheet(Work& work, Index p, double highest) {
   SheetPoint where;
   if (work.sheet->first_hit(me.start, me.velocity, work.radius, me.since, until, time, where) && time < choice.time)
     choice = {time, nobody, Hit::sheet};
-}
-
-template <class Look>
-void each_visitor(Work& work, Look&& look) {
-  const std::size_t count = work.visit.size();
-#pragma omp parallel for num_threads(work.threads) schedule(dynamic, 64) if (count > worth_threads)
-  for (std::size_t k = 0; k < count; ++k) look(work.visit[k]);
 }
 
 /// A hit that one body knows of and the other does not: the other did not look in this round.
@@ -130,6 +127,23 @@ void look_from_grain(Work& work, Index q) {
   work.offered.push_back(partner);
 }
 
+/// Every visitor looks at all that the scene holds, in one parallel pass.
+template <bool Periodic>
+void look_around(Work& work) {
+  const bool grains = !work.grain.empty(), mirrors = work.mirrors, sheet = work.sheet != nullptr;
+  const double highest = sheet ? work.sheet->highest(work.h) : 0.0;
+  const std::size_t count = work.visit.size();
+#pragma omp parallel for num_threads(work.threads) schedule(dynamic, 128) if (count > worth_threads)
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index p = work.visit[k];
+    work.choice[p] = {};
+    look_at_gas<Periodic>(work, p);
+    if (grains) look_at_grains(work, p);
+    if (mirrors) look_at_mirrors(work, p);
+    if (sheet) look_at_sheet(work, p, highest);
+  }
+}
+
 void keep_waiting(Work& work, Index p) {
   if (work.choice[p].kind == Hit::none || work.pending[p] != 0) return;
   work.pending[p] = 1;
@@ -139,19 +153,11 @@ void keep_waiting(Work& work, Index p) {
 }  // namespace
 
 void search(Work& work) {
-  for (const Index p : work.visit) work.choice[p] = {};
   if (work.periodic_side > 0.0) {
-    each_visitor(work, [&](Index p) { look_at_gas<true>(work, p); });
+    look_around<true>(work);
   } else {
-    each_visitor(work, [&](Index p) { look_at_gas<false>(work, p); });
+    look_around<false>(work);
   }
-  if (!work.grain.empty()) each_visitor(work, [&](Index p) { look_at_grains(work, p); });
-  if (work.mirrors) each_visitor(work, [&](Index p) { look_at_mirrors(work, p); });
-  if (work.sheet != nullptr) {
-    const double highest = work.sheet->highest(work.h);
-    each_visitor(work, [&](Index p) { look_at_sheet(work, p, highest); });
-  }
-
   work.offered.clear();
   if (work.round > 1) {  // in the first round everybody has looked
     for (const Index p : work.visit)

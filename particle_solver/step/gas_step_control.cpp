@@ -1,14 +1,17 @@
 // The next sub-step of the gas.
 //
-// Dense gas: v_rms h / d = 0.1. The order of hits that depend on each other within one sub-step is lost, which lowers
-// the pressure; at 0.1 the loss is below half a percent at every fill up to 0.45, at 0.4 it is 3.5 %.
+// Dense gas: c = v_rms h / d = 0.1. The order of hits that depend on each other within one sub-step is lost, which
+// lowers the pressure: measured at fill 0.35 by 0.1 % at c = 0.1 and 3.5 % at 0.4; at fill 0.45 by 1 % at 0.1 and
+// nothing at 0.05.
 //
-// Thin gas has few such chains, and there the step may grow. Their length is what the rounds count: one round finds
-// that there is nothing (left) to do, each further one follows the chains by a link. So the step grows while few rounds
-// are needed and shrinks, never below the dense rule, when they get many. Growth is a few percent a step, so one quiet
-// step means little.
+// What matters is the length of such chains, and that is what the rounds count: each round follows the chains by one
+// link. Measured, the pressure is right within 0.2 % while 98 % of the hits are done in 4 rounds, at any fill, and 1 %
+// low at 7. So thin gas, where the rounds are few, takes larger steps, and very dense gas smaller ones, down to half
+// the rule. The share of hits is used, not the last round, because the longest chain of many particles is longer than
+// that of few. The step changes by a few percent a call: one quiet step means little. While some particles still wait
+// for the detonation the many that cannot collide yet say nothing about the rest: no growth.
 //
-// Too large: pressure too low, and neighbours within v h get numerous; too small: time. All of it is deterministic.
+// Too large: pressure too low, and the neighbours within v h become many; too small: time. All of it is deterministic.
 #include <algorithm>
 #include <cmath>
 
@@ -18,8 +21,8 @@ namespace standoff::particles {
 namespace {
 
 constexpr double dense_courant = 0.1;  // v_rms h / d
-constexpr int few_rounds = 5, many_rounds = 7;
-constexpr double growth = 1.03, shrinkage = 0.95;
+constexpr int few_rounds = 3, many_rounds = 5;
+constexpr double growth = 1.03, shrinkage = 0.95, smallest_share = 0.5;
 
 }  // namespace
 
@@ -30,9 +33,10 @@ double GasCollide::suggest_step(const GasState& gas, const GasCollideCounts& las
   const double dense = dense_courant * 2.0 * gas.radius / std::sqrt(square_sum / static_cast<double>(gas.size()));
   if (last_step <= 0.0) return std::min(dense, cap);
   double next = last_step;
-  if (last.rounds <= few_rounds) next *= growth;
-  if (last.rounds > many_rounds) next *= shrinkage;
-  return std::min(std::max(next, dense), cap);
+  if (last.usual_rounds <= few_rounds) next *= growth;
+  if (last.usual_rounds > many_rounds) next *= shrinkage;
+  if (!gas.all_released()) next = std::min(next, dense);
+  return std::min(std::max(next, smallest_share * dense), cap);
 }
 
 }  // namespace standoff::particles

@@ -77,6 +77,7 @@ struct Work {
 
   // grains, by place; empty when there is no sand near
   std::vector<Grain> grain;
+  Lanes grain_lanes;
   double excursion_grain = 0.0, largest_grain = 0.0;  // m
   GasCellGrid grain_grid;
 
