@@ -16,7 +16,7 @@ class Completion {
   void run() {
     has_charge_ = s_.has_section("charge") && (s_.has("charge.mass") || !only_level("charge"));
     const std::string soil = s_.word("soil.kind");
-    has_soil_ = soil == "dry" || soil == "wet" || s_.is_wrong("soil.kind");
+    has_soil_ = soil == "dry" || soil == "wet";
     if (has_charge_ && !explosive_stated()) state_word("charge.explosive.preset", "c4");
     expand("explosive", "charge.explosive.preset");
     expand("material", "plate.material.preset");
@@ -43,7 +43,13 @@ class Completion {
       if (path.starts_with(section + ".") && setting.rank != rank::level) return false;
     return true;
   }
-  bool explosive_stated() const { return s_.has_section("charge.explosive"); }
+  /// Stated in a file: such a table is complete or names its preset. A --set of one constant changes the default.
+  bool explosive_stated() const {
+    if (s_.is_wrong("charge.explosive.preset")) return true;
+    for (const auto& [path, setting] : s_.all())
+      if (path.starts_with("charge.explosive.") && (setting.rank < rank::set || path.ends_with(".preset"))) return true;
+    return false;
+  }
 
   void state_word(const std::string& path, const std::string& word) {
     s_.add(path, {word, "default", {}, rank::fallback});
@@ -182,7 +188,7 @@ class Completion {
       require("soil.inner_radius"), require("soil.outer_radius");
       for (const char* key :
            {"packing", "grain_density", "bulk_density", "stiffness", "friction", "damping", "radius_spread"})
-        if (!s_.is_wrong("soil.kind") && !s_.is_wrong("soil.packing")) require(std::string("soil.") + key);
+        if (!s_.is_wrong("soil.packing")) require(std::string("soil.") + key);
     }
     if (has_charge_ || has_soil_) require("run.stand_off");
     require("plate.size");

@@ -35,9 +35,10 @@ inline int edit_distance(std::string_view a, std::string_view b) {
 /// The known word nearest to `word`, or "" if none is near enough to be a slip of the fingers.
 inline std::string nearest_word(std::string_view word, std::span<const std::string> known) {
   std::string best;
-  int best_distance = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  int best_distance = (static_cast<int>(word.size()) + 2) / 3 + 1;  // one slip in three letters, and none further
   for (const std::string& candidate : known) {
-    const int distance = edit_distance(word, candidate);
+    const bool begun = word.size() >= 4 && candidate.starts_with(word);  // "stand" for "stand_off"
+    const int distance = begun ? 1 : edit_distance(word, candidate);
     if (distance < best_distance) best = candidate, best_distance = distance;
   }
   return best;

@@ -18,9 +18,10 @@ std::string kind_of(const Node& node) {
 }
 
 /// What to write instead, when the type is wrong.
-std::string wanted(const KeyEntry& entry) {
+std::string wanted(const KeyEntry& entry, bool one_of_three = false) {
   const std::string unit = " (" + std::string(entry.quantity.units) + ")";
-  switch (entry.kind) {
+  const KeyKind one = entry.kind == KeyKind::counts ? KeyKind::count : KeyKind::quantity;
+  switch (one_of_three ? one : entry.kind) {
     case KeyKind::quantity:
       return with_article(entry.quantity.name) + " is needed" + unit;
     case KeyKind::number:
@@ -83,7 +84,8 @@ class Checker {
     return std::nullopt;
   }
   std::nullopt_t wrong_type(const Node& node, const std::string& name) {
-    return fail(node, name + " = " + node.shown() + " is " + kind_of(node) + "; " + wanted(entry_), words_hint(node));
+    return fail(node, name + " = " + node.shown() + " is " + kind_of(node) + "; " + wanted(entry_, name.back() == ']'),
+                words_hint(node));
   }
   std::nullopt_t wrong_word(const Node& node, const std::string& name) {
     const auto words = entry_.word_list();
@@ -123,13 +125,14 @@ class Checker {
       if (!std::isfinite(value)) return fail(node, shown + " is not a finite number");
       if (plain) return in_range(node, name, value);
       const std::string unit(entry_.quantity.si);
-      return fail(node, shown + " has no unit; " + wanted(entry_),
+      return fail(node, shown + " has no unit; " + wanted(entry_, name.back() == ']'),
                   "the unit is part of the value: " + in_quotes(node.shown() + " " + unit));
     }
     const ParsedQuantity parsed = parse_quantity(*node.text());
     if (!parsed.error.empty()) {
       const bool worded = parsed.error.starts_with("is ") || parsed.error.starts_with("does ");
-      return fail(node, shown + (worded ? " " : ": ") + parsed.error + "; " + wanted(entry_), words_hint(node));
+      return fail(node, shown + (worded ? " " : ": ") + parsed.error + "; " + wanted(entry_, name.back() == ']'),
+                  words_hint(node));
     }
     const std::string mismatch = dimension_mismatch(parsed.dimension, entry_.quantity);
     if (!mismatch.empty()) return fail(node, shown + " " + mismatch);
