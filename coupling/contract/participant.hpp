@@ -3,46 +3,37 @@
 //
 //   Participant link(options);
 //   link.offer_surface(mesh)            structure      |   mesh = link.receive_surface()      load
-//   clock = link.ready(needs, motion)   blocks until every participant is ready
+//   clock = link.ready(needs)           blocks until every participant is ready
 //   while (auto grant = link.next())    blocks; empty when the last window is done
 //     ... compute the window grant->begin .. grant->begin + clock.window ...
 //     link.advance(motion | load, progress)
 //   link.finish(report)                 two-phase goodbye
 //
-// Heartbeats, deadlines and the peer's failures are handled inside: every blocking call throws Stop with the first cause.
+// Heartbeats, deadlines and the peer's failures are handled inside: every blocking call throws Stop with the first
+// cause. A background thread keeps the heartbeat while the solver computes. If the run has failed and the solver does
+// not call back within `leave_within`, that thread prints the first cause and ends the process.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "coupling/contract/surface.hpp"
+#include "coupling/session/messages.hpp"  // Role, WindowNeeds, CouplingClock, NamedValues, InterfaceTotals
 
 namespace standoff {
 
-enum class Role { load, structure };
-
 struct ParticipantOptions {
-  std::string name;         // "particles", "structure": unique in a run
+  std::string name;  // "particles", "structure": unique in a run
   Role role = Role::load;
-  std::string endpoint;     // "ipc:///tmp/.../broker" or "tcp://host:port"
-  std::string token;        // run token, must match the broker's
-  std::string case_hash;    // both sides must have read the same case
-  std::string version;      // software version, for the record
-};
-
-/// What this side asks of the window; the broker decides.
-struct WindowNeeds {
-  double stable_step = 0.0;   // s, this side's own step at the start
-  double window_limit = 0.0;  // s, largest window this side finds accurate; used with "auto"
-};
-
-/// The integer window is the clock: window k covers [k, k + 1) * window, k = 0 .. windows - 1.
-struct CouplingClock {
-  double window = 0.0;      // s
-  std::int64_t windows = 0;
-  bool parallel = true;     // load and motion of window k-1 feed window k; otherwise the load side goes first
+  std::string endpoint;         // "ipc:///tmp/.../broker" or "tcp://host:port"
+  std::string token;            // run token, must match the broker's
+  std::string case_hash;        // both sides must have read the same case
+  std::string version;          // software version, for the record
+  double join_deadline = 60.0;  // s to wait for a broker that is not there yet
+  double leave_within = 3.0;    // s a solver may go on computing after the first failure
+  /// What to do after that; empty: print "standoff-NAME: error: TEXT" and end the process with the code.
+  std::function<void(ExitCode, const std::string& text)> end_process = nullptr;
 };
 
 struct Grant {
@@ -50,17 +41,8 @@ struct Grant {
   double begin = 0.0;       // s, = window * length
   /// Parallel scheme: the structure is granted one more window after the last so that the last load is applied.
   bool drain = false;
-  SurfaceMotion motion;     // load side: the structure's state at `begin`
-  SurfaceLoad load;         // structure side: force to hold over this window
-};
-
-/// Named numbers for people and programs: a row of histories.csv or a progress line.
-using NamedValues = std::vector<std::pair<std::string, double>>;
-
-/// Interface ledger of one side for one window, full domain is not implied: as simulated.
-struct InterfaceTotals {
-  Vec3 impulse;       // N s given to (load side) or received by (structure side) the surface since the start
-  double work = 0.0;  // J, likewise
+  SurfaceMotion motion;  // load side: the structure's state at `begin`; window 0: the surface at rest
+  SurfaceLoad load;      // structure side: force to hold over this window; window 0 in the parallel scheme: zero
 };
 
 class Participant {
@@ -74,11 +56,15 @@ class Participant {
   SurfaceMesh receive_surface();
   CouplingClock ready(const WindowNeeds& needs);
   std::optional<Grant> next();
+  /// Asks that no window beyond those already begun be computed; `next` then ends the loop on both sides.
+  void request_stop(const std::string& reason);
 
+  /// Hands in the window. Throws Stop(guard), and tells everyone, if a value is not finite.
   void advance(const SurfaceMotion& motion, const InterfaceTotals& totals);
   void advance(const SurfaceLoad& load, const InterfaceTotals& totals);
 
-  /// Sends a progress line (shown, not stored) or a history row (stored) with the next message. time in s.
+  /// Sends a progress line (shown, not stored; at most ten a second, the latest wins) or a history row (stored). time
+  /// in s.
   void progress(const NamedValues& values);
   void sample(double time, const NamedValues& values);
   /// Call now and then from long computations outside the window loop: keeps the heartbeat and notices a dead peer.

@@ -1,0 +1,92 @@
+// standoff-broker: the window clock and referee between a load side and a structure.
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include "coupling/base/stop.hpp"
+#include "coupling/broker/broker.hpp"
+#include "coupling/contract/process_watch.hpp"
+
+namespace {
+
+using namespace standoff;
+
+struct CommandLine {
+  BrokerOptions broker;
+  std::string scheme = "parallel", window = "auto";
+};
+
+WindowRule parse_window(const std::string& text) {
+  if (text == "auto") return {WindowRule::Kind::automatic, 0.0};
+  if (text == "step") return {WindowRule::Kind::structure_step, 0.0};
+  try {
+    std::size_t used = 0;
+    const double length = std::stod(text, &used);
+    if (used == text.size() && length > 0.0 && length < 1e300) return {WindowRule::Kind::fixed, length};
+  } catch (const std::logic_error&) {
+    // falls through to the message
+  }
+  throw CLI::ValidationError("--window", "\"" + text + "\" is not step, auto or a positive number of seconds");
+}
+
+void declare(CLI::App& app, CommandLine& line) {
+  Deadlines& limit = line.broker.rules.deadlines;
+  app.add_option("--listen", line.broker.listen, "ipc:///folder/name or tcp://127.0.0.1:port")->required();
+  app.add_option("--token", line.broker.rules.token, "run token, hexadecimal; participants must give the same")
+      ->required();
+  app.add_option("--until", line.broker.rules.until, "end of the windows, s")->required()->check(CLI::PositiveNumber);
+  app.add_option("--scheme", line.scheme, "parallel | serial")
+      ->check(CLI::IsMember({"parallel", "serial"}))
+      ->capture_default_str();
+  app.add_option("--window", line.window, "step | auto | seconds")->capture_default_str();
+  app.add_option("--expect", line.broker.rules.expected, "names of the participants")
+      ->delimiter(',')
+      ->expected(2)
+      ->capture_default_str();
+  app.add_option("--join-deadline", limit.join, "s to wait for participants")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--beat-deadline", limit.beat, "s of silence after which a participant is lost")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--progress-deadline", limit.progress, "s a solver may stand still; 0: for ever")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_flag("--insecure", line.broker.insecure, "allow an address other machines can reach, unencrypted");
+}
+
+void print_line(const std::string& line) {
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Window clock and referee of a coupled Standoff run"};
+  CommandLine line;
+  declare(app, line);
+  try {
+    app.parse(argc, argv);
+    line.broker.rules.window = parse_window(line.window);
+    line.broker.rules.parallel = line.scheme == "parallel";
+    // Beats must come often enough for the deadline.
+    Deadlines& limit = line.broker.rules.deadlines;
+    limit.beat_interval = std::min(limit.beat_interval, limit.beat / 4.0);
+    line.broker.print = print_line;
+    watch_process();
+    return run_broker(line.broker);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_case);
+  } catch (const Stop& stop) {
+    std::fprintf(stderr, "standoff-broker: error: %s\n", stop.what());
+    return static_cast<int>(stop.code());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "standoff-broker: error: %s\n", error.what());
+    return static_cast<int>(ExitCode::participant_lost);
+  }
+}

@@ -1,0 +1,212 @@
+#include "coupling/contract/participant.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "coupling/base/stage_timer.hpp"
+#include "coupling/contract/link.hpp"
+#include "coupling/contract/surface_fields.hpp"
+
+namespace standoff {
+namespace {
+
+template <class Body, std::size_t K = 0>
+constexpr std::size_t kind() {
+  if constexpr (std::is_same_v<Body, std::variant_alternative_t<K, Message>>)
+    return K;
+  else
+    return kind<Body, K + 1>();
+}
+
+}  // namespace
+
+struct Participant::Impl {
+  explicit Impl(ParticipantOptions given) : options(std::move(given)), link(options) {}
+
+  ParticipantOptions options;
+  Link link;
+  std::string digest;
+  std::vector<Vec3> rest;  // surface nodes at rest
+  std::int64_t window = -1;
+  bool computing = false, ended = false, finished = false;
+  Stopwatch since_grant;
+  Times times;
+
+  [[noreturn]] void refuse(const std::string& what, const ProtocolError& error) {
+    const message::Abort failure{"broker", ExitCode::participant_lost, fmt::format("{}: {}", what, error.what()),
+                                 window};
+    link.fail(failure);
+    throw Stop(failure.code, first_cause(failure));
+  }
+  [[noreturn]] void stop_by_guard(const std::string& reason) {
+    const message::Abort failure{options.name, ExitCode::guard, reason, window};
+    link.fail(failure);
+    throw Stop(failure.code, first_cause(failure));
+  }
+  Parcel await(std::initializer_list<std::size_t> kinds) {
+    link.moved();
+    const Stopwatch watch;
+    Parcel parcel = link.await(kinds);
+    times.wait += watch.seconds();
+    return parcel;
+  }
+  void advance(const Payload& payload, const InterfaceTotals& totals) {
+    link.send(message::Advance{window, totals, times.compute, times.wait}, &payload);
+    computing = false;
+  }
+  /// Books the time since the grant; true if there is a window to hand in.
+  void begin_advance() {
+    link.moved();
+    if (!computing) throw std::logic_error("advance() without a window: call next() first");
+    times.compute += since_grant.seconds();
+  }
+};
+
+Participant::Participant(ParticipantOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+
+Participant::~Participant() {
+  // After a failure that was told, or a proper goodbye, this is without effect.
+  if (!impl_->finished) abort(static_cast<int>(ExitCode::participant_lost), "left the run before its end");
+}
+
+void Participant::offer_surface(const SurfaceMesh& mesh) {
+  Impl& my = *impl_;
+  my.link.moved();
+  if (const std::string objection = objection_to(mesh); !objection.empty()) my.stop_by_guard(objection);
+  const Payload payload = to_fields(mesh);
+  my.digest = surface_digest(payload);
+  my.rest = mesh.position;
+  my.link.send(message::Surface{static_cast<std::int64_t>(mesh.position.size()),
+                                static_cast<std::int64_t>(mesh.quads.size()), my.digest},
+               &payload);
+}
+
+SurfaceMesh Participant::receive_surface() {
+  Impl& my = *impl_;
+  const Parcel parcel = my.await({kind<message::Surface>()});
+  const auto& surface = std::get<message::Surface>(parcel.body);
+  try {
+    const Payload none;
+    const Payload& payload = parcel.payload ? *parcel.payload : none;
+    SurfaceMesh mesh = mesh_from(payload, surface.nodes, surface.quads);
+    my.digest = surface_digest(payload);
+    my.rest = mesh.position;
+    return mesh;
+  } catch (const ProtocolError& error) {
+    my.refuse("the surface that was received", error);
+  }
+}
+
+CouplingClock Participant::ready(const WindowNeeds& needs) {
+  Impl& my = *impl_;
+  my.link.moved();
+  my.link.flush_progress();
+  my.link.send(message::Ready{needs, my.digest});
+  const Parcel parcel = my.await({kind<message::Start>()});
+  return std::get<message::Start>(parcel.body).clock;
+}
+
+std::optional<Grant> Participant::next() {
+  Impl& my = *impl_;
+  if (my.computing) throw std::logic_error(fmt::format("next() before advance() of window {}", my.window));
+  if (my.ended) return std::nullopt;
+  Parcel parcel = my.await({kind<message::Grant>(), kind<message::StopWindows>()});
+  const Stopwatch watch;
+  const auto* granted = std::get_if<message::Grant>(&parcel.body);
+  if (granted == nullptr) {
+    my.ended = true;
+    return std::nullopt;
+  }
+  Grant grant;
+  grant.window = my.window = granted->window;
+  grant.begin = granted->begin;
+  grant.drain = granted->drain;
+  my.link.set_window(my.window);
+  try {
+    const std::size_t nodes = my.rest.size();
+    if (my.options.role == Role::load) {
+      if (parcel.payload)
+        grant.motion = motion_from(*parcel.payload, nodes);
+      else
+        grant.motion = {my.rest, std::vector<Vec3>(nodes)};
+    } else {
+      if (parcel.payload)
+        grant.load = load_from(*parcel.payload, nodes);
+      else
+        grant.load.force.resize(nodes);
+    }
+  } catch (const ProtocolError& error) {
+    my.refuse(my.options.role == Role::load ? "the motion of the structure" : "the load on the structure", error);
+  }
+  my.computing = true;
+  my.times.exchange += watch.seconds();
+  my.since_grant = Stopwatch();
+  return grant;
+}
+
+void Participant::request_stop(const std::string& reason) {
+  impl_->link.moved();
+  impl_->link.send(message::StopWindows{0, reason});
+}
+
+void Participant::advance(const SurfaceMotion& motion, const InterfaceTotals& totals) {
+  impl_->begin_advance();
+  const Stopwatch watch;
+  for (const std::string& text :
+       {not_finite("surface position", motion.position), not_finite("surface velocity", motion.velocity)})
+    if (!text.empty()) impl_->stop_by_guard(text + ": the structure is unstable");
+  impl_->advance(to_fields(motion), totals);
+  impl_->times.exchange += watch.seconds();
+}
+
+void Participant::advance(const SurfaceLoad& load, const InterfaceTotals& totals) {
+  impl_->begin_advance();
+  const Stopwatch watch;
+  if (const std::string text = not_finite("force on the surface", load.force); !text.empty())
+    impl_->stop_by_guard(text + ": the load side is unstable");
+  impl_->advance(to_fields(load), totals);
+  impl_->times.exchange += watch.seconds();
+}
+
+void Participant::progress(const NamedValues& values) {
+  impl_->link.moved();
+  impl_->link.show(values);
+}
+
+void Participant::sample(double time, const NamedValues& values) {
+  impl_->link.moved();
+  impl_->link.send(message::Sample{time, values});
+}
+
+void Participant::beat() {
+  impl_->link.moved();
+}
+
+void Participant::finish(const std::string& report_json) {
+  Impl& my = *impl_;
+  my.link.moved();
+  my.link.flush_progress();
+  my.link.send(message::Report{report_json});
+  my.link.send(message::Bye{});
+  my.await({kind<message::ByeAck>()});
+  my.link.close();
+  my.finished = true;
+}
+
+void Participant::abort(int exit_code, const std::string& reason) noexcept {
+  try {
+    impl_->link.fail({impl_->options.name, static_cast<ExitCode>(exit_code), reason, impl_->window});
+  } catch (...) {
+    // Out of memory for two strings: the broker sees the connection end.
+  }
+}
+
+Participant::Times Participant::times() const {
+  Times times = impl_->times;
+  times.bytes = impl_->link.bytes();
+  return times;
+}
+
+}  // namespace standoff

@@ -1,0 +1,40 @@
+#include "coupling/contract/process_watch.hpp"
+
+#include <atomic>
+
+#include <signal.h>
+#include <unistd.h>
+
+namespace standoff {
+namespace {
+
+volatile sig_atomic_t noted_signal = 0;
+std::atomic<pid_t> parent{0};  // 0: not watched
+
+extern "C" void note_signal(int number) {
+  if (noted_signal == 0) noted_signal = number;
+}
+
+}  // namespace
+
+void watch_process() {
+  struct sigaction action {};
+  action.sa_handler = note_signal;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  const pid_t now = getppid();
+  if (now > 1) parent = now;
+}
+
+std::string reason_to_end() {
+  if (noted_signal == SIGINT) return "interrupted by SIGINT";
+  if (noted_signal == SIGTERM) return "interrupted by SIGTERM";
+  // Polled: the signal Linux can send on a parent's death is tied to the thread that started us, not to its process.
+  const pid_t watched = parent.load();
+  if (watched != 0 && getppid() != watched) return "the program that started this process has ended";
+  return {};
+}
+
+}  // namespace standoff

@@ -1,0 +1,15 @@
+#pragma once
+// Why a process should end although its work is not done: a signal, or the death of the program that started it (a
+// launcher that was killed must leave nobody behind).
+#include <string>
+
+namespace standoff {
+
+/// From now on SIGINT and SIGTERM are noted instead of ending the process, SIGPIPE is ignored, and the parent is
+/// watched unless it is the system's own first process. Call once, at the start of main.
+void watch_process();
+
+/// Empty while there is no reason; otherwise a sentence. Costs a system call.
+std::string reason_to_end();
+
+}  // namespace standoff

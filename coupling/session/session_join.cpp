@@ -1,0 +1,109 @@
+// From the first HELLO to the clock.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "coupling/session/session_turn.hpp"
+
+namespace standoff {
+namespace {
+
+/// Why this HELLO cannot be accepted, and what to change; empty if it can.
+std::pair<std::string, std::string> objection(SessionTurn& turn, const Envelope& envelope,
+                                              const message::Hello& hello) {
+  const SessionState& state = turn.state;
+  const auto& expected = state.rules.expected;
+  if (envelope.token != state.rules.token)
+    return {"the run token is not the one of this broker", "give participant and broker the same --token"};
+  if (std::find(expected.begin(), expected.end(), hello.name) == expected.end())
+    return {fmt::format("no participant named \"{}\" is expected", hello.name),
+            fmt::format("expected: {}; see --expect of the broker", fmt::join(expected, ", "))};
+  for (const Peer& peer : state.peers) {
+    if (peer.name == hello.name)
+      return {fmt::format("a participant named \"{}\" has already joined: {}", hello.name, describe(peer)),
+              "names are unique in a run; end the other process or start a new run"};
+    if (peer.role == hello.role)
+      return {fmt::format("\"{}\" already is the {} side", peer.name, role_name(peer.role)),
+              "a run has one load side and one structure"};
+  }
+  if (!state.peers.empty() && hello.case_hash != state.case_hash)
+    return {fmt::format("case hash {} differs from {} of \"{}\"", hello.case_hash, state.case_hash,
+                        state.peers.front().name),
+            "start both with the same case, level and --set options"};
+  return {};
+}
+
+void forward_surface(SessionTurn& turn) {
+  Peer* load = turn.with(Role::load);
+  if (load == nullptr || load->stage != Stage::joined || turn.state.surface.nodes == 0) return;
+  turn.send(*load, turn.state.surface, turn.state.surface_payload);
+  turn.enter(*load, Stage::meshed);
+}
+
+}  // namespace
+
+void take_hello(SessionTurn& turn, const std::string& address, const Envelope& envelope, const message::Hello& hello) {
+  const auto [reason, remedy] = objection(turn, envelope, hello);
+  if (!reason.empty()) return turn.reject(address, hello.name, ExitCode::bad_case, reason, remedy);
+  SessionState& state = turn.state;
+  if (state.peers.empty()) state.case_hash = hello.case_hash;
+  Peer peer;
+  peer.address = address;
+  peer.name = hello.name;
+  peer.host = hello.host;
+  peer.role = hello.role;
+  peer.pid = hello.pid;
+  peer.epoch = ++state.epochs;
+  peer.received = envelope.sequence;
+  peer.last_seen = turn.now;
+  state.peers.push_back(std::move(peer));
+  Peer& joined = state.peers.back();
+  turn.enter(joined, Stage::joined);
+  turn.announce(announce::Joined{joined.name, joined.role, joined.pid});
+  turn.send(joined, message::Welcome{joined.epoch, state.rules.deadlines.beat_interval, state.rules.deadlines.beat});
+  if (state.peers.size() == state.rules.expected.size()) state.phase_since = turn.now;
+  forward_surface(turn);
+}
+
+void take_surface(SessionTurn& turn, Peer& peer, const Received& received) {
+  const auto& surface = std::get<message::Surface>(received.body);
+  if (peer.role != Role::structure) return turn.protocol_error(peer, "SURFACE from the load side");
+  const std::vector<FieldShape> expected = {{"position", DataType::f64, 3, surface.nodes},
+                                            {"quads", DataType::i32, 4, surface.quads},
+                                            {"node_mass", DataType::f64, 1, surface.nodes}};
+  if (surface.nodes <= 0 || surface.quads <= 0 || received.fields != expected)
+    return turn.protocol_error(peer, fmt::format("SURFACE announces {} nodes and {} quads, its fields do not match",
+                                                 surface.nodes, surface.quads));
+  turn.state.surface = surface;
+  turn.state.surface_payload = received.payload;
+  turn.enter(peer, Stage::meshed);
+  forward_surface(turn);
+}
+
+void take_ready(SessionTurn& turn, Peer& peer, const message::Ready& ready) {
+  SessionState& state = turn.state;
+  if (ready.surface_digest != state.surface.digest)
+    return turn.protocol_error(peer, fmt::format("its surface has digest {}, the structure offered {}",
+                                                 ready.surface_digest, state.surface.digest));
+  peer.needs = ready.needs;
+  turn.enter(peer, Stage::ready);
+  const bool all =
+      state.peers.size() == state.rules.expected.size() &&
+      std::all_of(state.peers.begin(), state.peers.end(), [](const Peer& p) { return p.stage == Stage::ready; });
+  if (!all) return;
+  const Peer* load = turn.with(Role::load);
+  const Peer* structure = turn.with(Role::structure);
+  try {
+    state.clock =
+        decide_clock(state.rules.until, state.rules.parallel, state.rules.window, load->needs, structure->needs);
+  } catch (const Stop& stop) {
+    return turn.fail({"broker", stop.code(), stop.what(), -1});
+  }
+  turn.announce(announce::Clock{state.clock});
+  for (Peer& each : state.peers) turn.send(each, message::Start{state.clock});
+  start_windows(turn);
+}
+
+}  // namespace standoff

@@ -1,0 +1,82 @@
+#include "coupling/transport/dealer.hpp"
+
+#include <fmt/format.h>
+
+#include "coupling/base/stop.hpp"
+#include "coupling/transport/endpoint.hpp"
+#include "coupling/transport/socket_watch.hpp"
+
+namespace standoff {
+namespace {
+
+constexpr int most_queued = 256;
+constexpr int linger_ms = 1000;
+constexpr int retry_ms = 50;  // between attempts to connect while the broker is not there yet
+
+}  // namespace
+
+struct Dealer::Impl {
+  zmq::context_t context{1};
+  zmq::socket_t socket{context, zmq::socket_type::dealer};
+  SocketWatch watch{context, socket};
+  bool connected = false, lost = false;
+};
+
+Dealer::Dealer(const std::string& endpoint) : impl_(std::make_unique<Impl>()) {
+  // Where a participant may go is the user's choice; --insecure guards the side that listens.
+  parse_endpoint(endpoint, true);
+  zmq::socket_t& socket = impl_->socket;
+  socket.set(zmq::sockopt::linger, linger_ms);
+  // ZMQ_IMMEDIATE stays off: with it, libzmq 4.3.4 drops what has arrived and was not yet read when a connection ends,
+  // and with that the last words of the broker. Nothing is sent before `connected` anyway.
+  socket.set(zmq::sockopt::sndhwm, most_queued);
+  socket.set(zmq::sockopt::rcvhwm, most_queued);
+  socket.set(zmq::sockopt::maxmsgsize, most_frame_bytes);
+  socket.set(zmq::sockopt::reconnect_ivl, retry_ms);
+  try {
+    socket.connect(endpoint);
+  } catch (const zmq::error_t& error) {
+    throw Stop(ExitCode::bad_case, fmt::format("cannot connect to {}: {}", endpoint, error.what()));
+  }
+}
+
+Dealer::~Dealer() {
+  if (impl_->lost) impl_->socket.set(zmq::sockopt::linger, 0);  // nobody is there to take what is still queued
+}
+
+void Dealer::wait(std::chrono::milliseconds timeout) {
+  wait_for_input(impl_->socket, impl_->watch.events(), timeout.count());
+}
+
+void Dealer::look() {
+  while (const auto event = impl_->watch.next()) {
+    if (event->opened)
+      impl_->connected = true;
+    else if (impl_->connected)
+      impl_->lost = true;
+  }
+}
+
+bool Dealer::connected() const {
+  return impl_->connected;
+}
+
+bool Dealer::lost() const {
+  return impl_->lost;
+}
+
+std::optional<Frames> Dealer::receive() {
+  return receive_frames(impl_->socket);
+}
+
+bool Dealer::send(Frames frames, std::chrono::milliseconds timeout) {
+  zmq_pollitem_t item = {impl_->socket.handle(), 0, ZMQ_POLLOUT, 0};
+  if (zmq_poll(&item, 1, timeout.count()) <= 0) return false;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
+    if (zmq_msg_send(frames[i].handle(), impl_->socket.handle(), more | ZMQ_DONTWAIT) < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace standoff

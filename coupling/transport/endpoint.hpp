@@ -1,0 +1,31 @@
+#pragma once
+// Where the broker listens: "ipc:///folder/name" (a socket file) or "tcp://127.0.0.1:port" ("*" takes any free port).
+#include <string>
+
+namespace standoff {
+
+struct Endpoint {
+  std::string text;      // as given
+  std::string path;      // socket file of an ipc endpoint, else empty
+  bool loopback = true;  // false: reachable from other machines, without encryption
+};
+
+/// Throws Stop(bad_case) for anything else, for an ipc path longer than the system allows (107 characters), and for an
+/// address beyond this machine unless `insecure`.
+Endpoint parse_endpoint(const std::string& text, bool insecure);
+
+/// Keeps an ipc path for one broker: libzmq lets a second bind steal a live path. A file "PATH.lock" is locked for the
+/// life of this object; it and the socket file are removed at its end.
+class EndpointLock {
+ public:
+  explicit EndpointLock(const Endpoint& endpoint);  // throws Stop(bad_case) if another broker lives there
+  ~EndpointLock();
+  EndpointLock(const EndpointLock&) = delete;
+  EndpointLock& operator=(const EndpointLock&) = delete;
+
+ private:
+  std::string path_;
+  int file_ = -1;
+};
+
+}  // namespace standoff

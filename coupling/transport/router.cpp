@@ -1,0 +1,91 @@
+#include "coupling/transport/router.hpp"
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "coupling/base/stop.hpp"
+#include "coupling/transport/socket_watch.hpp"
+
+namespace standoff {
+namespace {
+
+constexpr int most_queued = 256;  // messages a peer may leave unread; the protocol has a handful under way
+constexpr int linger_ms = 1000;   // so that the first cause still reaches those who listen, and no longer
+constexpr int closed_descriptor = -1;
+
+/// The descriptor a message came in on. Deprecated by libzmq in favour of the peer's address, which ipc peers share.
+int descriptor_of(zmq::message_t& frame) {
+  return zmq_msg_get(frame.handle(), ZMQ_SRCFD);
+}
+
+}  // namespace
+
+struct Router::Impl {
+  zmq::context_t context{1};
+  zmq::socket_t socket{context, zmq::socket_type::router};
+  SocketWatch watch{context, socket};
+  std::map<int, std::string> address_of;  // by descriptor
+};
+
+Router::Router(const Endpoint& endpoint) : impl_(std::make_unique<Impl>()) {
+  zmq::socket_t& socket = impl_->socket;
+  socket.set(zmq::sockopt::linger, linger_ms);
+  socket.set(zmq::sockopt::router_mandatory, true);
+  socket.set(zmq::sockopt::sndhwm, most_queued);
+  socket.set(zmq::sockopt::rcvhwm, most_queued);
+  socket.set(zmq::sockopt::maxmsgsize, most_frame_bytes);
+  try {
+    socket.bind(endpoint.text);
+  } catch (const zmq::error_t& error) {
+    throw Stop(ExitCode::bad_case, fmt::format("cannot listen on {}: {}", endpoint.text, error.what()));
+  }
+}
+
+Router::~Router() = default;
+
+std::string Router::endpoint() const {
+  return impl_->socket.get(zmq::sockopt::last_endpoint);
+}
+
+void Router::wait(std::chrono::milliseconds timeout) {
+  wait_for_input(impl_->socket, impl_->watch.events(), timeout.count());
+}
+
+std::optional<Router::Arrival> Router::receive() {
+  auto frames = receive_frames(impl_->socket);
+  if (!frames) return std::nullopt;
+  Arrival arrival;
+  arrival.address = (*frames)[0].to_string();
+  if (frames->size() > 1) {
+    const int descriptor = descriptor_of((*frames)[1]);
+    if (descriptor != closed_descriptor) impl_->address_of[descriptor] = arrival.address;
+  }
+  frames->erase(frames->begin());
+  arrival.frames = std::move(*frames);
+  return arrival;
+}
+
+std::vector<std::string> Router::take_gone() {
+  std::vector<std::string> gone;
+  while (const auto event = impl_->watch.next()) {
+    const auto known = impl_->address_of.find(event->descriptor);
+    if (event->opened || known == impl_->address_of.end()) continue;
+    gone.push_back(known->second);
+    impl_->address_of.erase(known);
+  }
+  return gone;
+}
+
+Router::Delivery Router::send(const std::string& address, Frames frames) {
+  zmq::message_t to(address.data(), address.size());
+  if (zmq_msg_send(to.handle(), impl_->socket.handle(), ZMQ_SNDMORE | ZMQ_DONTWAIT) < 0)
+    return zmq_errno() == EAGAIN ? Delivery::full : Delivery::gone;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
+    if (zmq_msg_send(frames[i].handle(), impl_->socket.handle(), more | ZMQ_DONTWAIT) < 0) return Delivery::gone;
+  }
+  return Delivery::sent;
+}
+
+}  // namespace standoff

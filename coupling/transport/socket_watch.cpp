@@ -1,0 +1,57 @@
+#include "coupling/transport/socket_watch.hpp"
+
+#include <atomic>
+#include <cstring>
+
+namespace standoff {
+namespace {
+
+std::string fresh_name() {
+  static std::atomic<unsigned> count{0};
+  return "inproc://watch-" + std::to_string(count++);
+}
+
+}  // namespace
+
+SocketWatch::SocketWatch(zmq::context_t& context, zmq::socket_t& socket)
+    : socket_(socket), events_(context, zmq::socket_type::pair) {
+  const std::string name = fresh_name();
+  if (zmq_socket_monitor(socket.handle(), name.c_str(), ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED) != 0)
+    throw zmq::error_t();
+  events_.set(zmq::sockopt::linger, 0);
+  events_.connect(name);
+}
+
+SocketWatch::~SocketWatch() {
+  zmq_socket_monitor(socket_.handle(), nullptr, 0);
+}
+
+std::optional<ConnectionEvent> SocketWatch::next() {
+  // Two frames: event number (16 bit) and value (32 bit), then the address.
+  const auto frames = receive_frames(events_);
+  if (!frames || frames->empty() || (*frames)[0].size() < 6) return std::nullopt;
+  std::uint16_t number = 0;
+  std::int32_t value = -1;
+  std::memcpy(&number, (*frames)[0].data(), sizeof number);
+  std::memcpy(&value, static_cast<const char*>((*frames)[0].data()) + sizeof number, sizeof value);
+  return ConnectionEvent{number == ZMQ_EVENT_HANDSHAKE_SUCCEEDED, value};
+}
+
+std::optional<std::vector<zmq::message_t>> receive_frames(zmq::socket_t& socket) {
+  std::vector<zmq::message_t> frames(1);
+  if (zmq_msg_recv(frames[0].handle(), socket.handle(), ZMQ_DONTWAIT) < 0) return std::nullopt;
+  while (frames.back().more()) {
+    frames.emplace_back();
+    // The other frames of a message are always there with the first.
+    while (zmq_msg_recv(frames.back().handle(), socket.handle(), 0) < 0)
+      if (zmq_errno() != EINTR) return std::nullopt;
+  }
+  return frames;
+}
+
+void wait_for_input(zmq::socket_t& socket, zmq::socket_t& events, long milliseconds) {
+  zmq_pollitem_t items[] = {{socket.handle(), 0, ZMQ_POLLIN, 0}, {events.handle(), 0, ZMQ_POLLIN, 0}};
+  zmq_poll(items, 2, milliseconds);
+}
+
+}  // namespace standoff
