@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
+#include "structure_solver/relaxation/leapfrog_relaxation.hpp"
 #include "structure_solver/relaxation/solver_codes.hpp"
 #include "structure_solver/relaxation/sundials_objects.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 constexpr int krylov_dimension = 40;  // CVODE's default of 5 silently shortens the step
 constexpr double near_enough = 1.25;  // a gamma this close to the factored one is not why GMRES takes long
 constexpr double too_far = 30.0;      // beyond this GMRES would not converge within its dimension
+constexpr long review = 500;          // steps after which the gain over an explicit integrator is looked at
 constexpr int patience = 3;           // restarts without 20 accepted steps in between
 
 class ImplicitMotion {
@@ -39,6 +42,7 @@ class ImplicitMotion {
   void create(double first_step);
   void watch_iterations();
   bool recover(const SolverCode& code);
+  bool slower_than_explicit();
 
   int rate(double time, N_Vector y, N_Vector rate);
   int jacobian_times(N_Vector x, N_Vector product, double time, N_Vector y, N_Vector rate);
@@ -62,7 +66,7 @@ class ImplicitMotion {
   long newton_iterations_ = 0, linear_iterations_ = 0, iterations_before_ = 0;
   int restarts_ = 0;
   long restart_step_ = 0;
-  double last_step_ = 0.0;
+  double last_step_ = 0.0, reviewed_time_ = 0.0, explicit_step_ = 0.0;
   std::string message_;
 };
 
@@ -227,8 +231,21 @@ bool ImplicitMotion::recover(const SolverCode& code) {
   return true;
 }
 
+/// Crawling along with steps an explicit integrator could take for a fraction of the price.
+bool ImplicitMotion::slower_than_explicit() {
+  if (motion_.steps() % review != 0) return false;
+  const double average = (motion_.time() - std::exchange(reviewed_time_, motion_.time())) / review;
+  if (average > motion_.period() / 100.0) return false;
+  if (explicit_step_ == 0.0) explicit_step_ = stable_explicit_step(stiffness_);
+  if (average > explicit_step_) return false;
+  message_ += fmt::format("{}CVODE at {:.4g} ms: steps of {:.3g} us, shorter than the explicit {:.3g} us; gave up",
+                          message_.empty() ? "" : "; ", motion_.time() * 1e3, average * 1e6, explicit_step_ * 1e6);
+  return true;
+}
+
 ImplicitEnd ImplicitMotion::run() {
   stiffness_step_ = motion_.steps();  // K came with the present state
+  reviewed_time_ = motion_.time();
   last_step_ = 1e-4 * motion_.period();
   create(last_step_);
   ImplicitEnd end;
@@ -241,6 +258,8 @@ ImplicitEnd ImplicitMotion::run() {
       last_step_ = time - motion_.time();
       motion_.accept(time, u_of(y_), v_of(y_));
       watch_iterations();
+      end.gave_up = slower_than_explicit();
+      if (end.gave_up) break;
     } else if (!recover(code)) {
       end.gave_up = true;
       break;

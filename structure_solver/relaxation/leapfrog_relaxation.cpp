@@ -17,12 +17,11 @@ namespace {
                          motion.time() * 1e3));
 }
 
-double stable_step(const DampedMotion& motion, const StiffnessFactor& stiffness) {
-  const double asked = motion.options().explicit_step;
-  return asked > 0.0 ? asked : 0.85 * 2.0 / highest_frequency(stiffness);
-}
-
 }  // namespace
+
+double stable_explicit_step(const StiffnessFactor& stiffness) {
+  return 0.85 * 2.0 / highest_frequency(stiffness);
+}
 
 void run_leapfrog(DampedMotion& motion, const StiffnessFactor& stiffness) {
   // Displacement and velocity belong to the same time only on average: near the stability limit the energy of the
@@ -30,7 +29,8 @@ void run_leapfrog(DampedMotion& motion, const StiffnessFactor& stiffness) {
   motion.allow_energy_error(1.0);
   const std::span<const double> mass = motion.mass();
   const std::size_t size = mass.size();
-  const double dt = stable_step(motion, stiffness), alpha = motion.alpha();
+  const double asked = motion.options().explicit_step;
+  const double dt = asked > 0.0 ? asked : stable_explicit_step(stiffness), alpha = motion.alpha();
   const double keep = (1.0 - 0.5 * alpha * dt) / (1.0 + 0.5 * alpha * dt), push = dt / (1.0 + 0.5 * alpha * dt);
   std::vector<double> u(motion.displacement().begin(), motion.displacement().end());
   std::vector<double> v(motion.velocity().begin(), motion.velocity().end());

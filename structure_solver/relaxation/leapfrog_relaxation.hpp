@@ -11,6 +11,9 @@
 
 namespace standoff::structure {
 
+/// 0.85 of the stability limit of K.
+double stable_explicit_step(const StiffnessFactor& stiffness);
+
 /// Moves on until motion.finished(). Throws Stop(guard) if an element inverts.
 void run_leapfrog(DampedMotion& motion, const StiffnessFactor& stiffness);
 
