@@ -1,0 +1,113 @@
+#include "particle_solver/app/particle_books.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "coupling/base/state_hash.hpp"
+
+namespace standoff::particles {
+
+ParticleBooks::ParticleBooks(const CaseSpec& spec, const Scene& scene, const TimeLoop& loop)
+    : spec_(spec), scene_(scene), loop_(loop) {
+  ledger_.open(loop.energy(), loop.momentum_everywhere());
+  if (scene.has_sand) shock_.emplace(scene.sand, scene.centre, spec.soil.outer_radius);
+}
+
+void ParticleBooks::observe(double time) {
+  if (shock_) shock_->observe(scene_.sand, time);
+}
+
+double ParticleBooks::front_radius() const {
+  std::vector<double> radii;
+  radii.reserve(scene_.sand.size());
+  for (const Vec3& x : scene_.sand.position) radii.push_back(norm(x - scene_.centre));
+  // 99 % of the mass; what has left the domain is beyond every radius inside.
+  const auto all = static_cast<double>(scene_.sand_particles);
+  const auto index = static_cast<std::size_t>(std::ceil(0.99 * all)) - 1;
+  if (index >= radii.size()) return std::numeric_limits<double>::quiet_NaN();
+  std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(index), radii.end());
+  return radii[index];
+}
+
+NamedValues ParticleBooks::sample(double time) {
+  const ParticleEnergy energy = loop_.energy();
+  ledger_.observe(energy);
+  const LoopTotals& totals = loop_.totals();
+  const double full = spec_.copies();
+  NamedValues row{{"time_s", time}, {"impulse_Ns", -full * scene_.sheet.total_impulse().z}};
+  if (scene_.has_gas) {
+    row.insert(row.end(), {{"impulse_gas_Ns", full * totals.impulse_gas},
+                           {"gas_internal_J", full * energy.gas_internal},
+                           {"gas_kinetic_J", full * energy.gas_kinetic}});
+  }
+  if (scene_.has_sand) {
+    row.insert(row.end(), {{"impulse_sand_Ns", full * totals.impulse_sand},
+                           {"sand_kinetic_J", full * energy.sand_kinetic},
+                           {"sand_elastic_J", full * energy.sand_elastic},
+                           {"contact_loss_J", full * energy.contact_loss},
+                           {"sand_front_radius_m", front_radius()}});
+    if (spec_.effect("friction")) row.emplace_back("friction_loss_J", full * energy.friction_loss);
+    if (spec_.effect("damping")) row.emplace_back("damping_loss_J", full * energy.damping_loss);
+  }
+  row.insert(row.end(), {{"boundary_work_J", 0.0},
+                         {"escaped_J", full * energy.escaped},
+                         {"work_to_structure_J", full * energy.work_to_structure}});
+  return row;
+}
+
+NamedValues ParticleBooks::progress(double time, long window, long windows) const {
+  const LoopTotals& totals = loop_.totals();
+  return {{"time_s", time},
+          {"window", static_cast<double>(window)},
+          {"windows", static_cast<double>(windows)},
+          {"step_s", totals.step},
+          {"impulse_Ns", -spec_.copies() * scene_.sheet.total_impulse().z},
+          {"energy_error", ledger_.energy_error()},
+          {"limited_by:" + totals.limited_by, 1.0}};
+}
+
+nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
+  const LoopTotals& totals = loop_.totals();
+  const double full = spec_.copies();
+  nlohmann::json j;
+  auto& results = j["results"];
+  results["impulse_Ns"] = -full * scene_.sheet.total_impulse().z;
+  if (scene_.has_gas) results["impulse_gas_Ns"] = full * totals.impulse_gas;
+  if (scene_.has_sand) results["impulse_sand_Ns"] = full * totals.impulse_sand;
+  results["incoming_momentum_Ns"] = full * totals.incoming;
+  results["rebound_momentum_Ns"] = full * loop_.rebound();
+  if (scene_.has_sand) {
+    results["max_overlap_over_radius"] = loop_.sand_books().max_overlap_over_radius;
+    if (std::isfinite(shock_->time())) results["shock_arrival_at_sand_surface_s"] = shock_->time();
+  }
+  const Vec3 residual = loop_.momentum_everywhere() - ledger_.initial_momentum();
+  j["conservation"] = {{"energy_error_particles", ledger_.energy_error()},
+                       {"momentum_residual_Ns", {residual.x, residual.y, residual.z}},
+                       {"impulse_scale_Ns", loop_.impulse_scale()}};
+  auto& counts = j["counts"];
+  if (scene_.has_gas) {
+    counts["charge_particles"] = scene_.charge_particles * spec_.copies();
+    counts["simulated_charge_particles"] = scene_.charge_particles;
+  }
+  if (scene_.has_sand) {
+    counts["sand_particles"] = scene_.sand_particles * spec_.copies();
+    counts["simulated_sand_particles"] = scene_.sand_particles;
+  }
+  counts["particle_steps"] = totals.particle_steps;
+  counts["slipped_below_the_surface"] = loop_.boundary_totals().slipped;
+  counts["deferred_hits"] = totals.deferred_hits;
+  auto& timing = j["timing"]["particle"];
+  timing = {{"compute_s", times.compute}, {"wait_s", times.wait}, {"exchange_s", times.exchange}};
+  for (const auto& row : loop_.timers().rows()) timing["stages"][row.name] = row.seconds;
+  StateHash hash;
+  hash.add(std::span<const Vec3>(scene_.gas.position));
+  hash.add(std::span<const Vec3>(scene_.gas.velocity));
+  hash.add(std::span<const double>(scene_.gas.internal_energy));
+  hash.add(std::span<const Vec3>(scene_.sand.position));
+  hash.add(std::span<const Vec3>(scene_.sand.velocity));
+  j["provenance"]["state_hash"] = hash.hex();
+  return j;
+}
+
+}  // namespace standoff::particles

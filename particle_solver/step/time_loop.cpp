@@ -1,0 +1,190 @@
+#include "particle_solver/step/time_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "particle_solver/step/detonate.hpp"
+#include "particle_solver/step/gas_drift.hpp"
+#include "particle_solver/step/sand_integrate.hpp"
+
+namespace standoff::particles {
+namespace {
+
+BoundaryOptions boundary_options(const CaseSpec& spec, int threads) {
+  return {spec.domain.lower, spec.domain.upper, spec.run.quarter_symmetry, threads};
+}
+
+GasCollideOptions gas_options(const CaseSpec& spec, int threads) {
+  GasCollideOptions options;
+  options.internal_energy = spec.effect("internal_energy");
+  options.seed = spec.run.seed;
+  options.mirrors.on = spec.run.quarter_symmetry;
+  options.threads = threads;
+  return options;
+}
+
+/// Number of equal steps that fill `span` with none above `limit`.
+long steps_to_fill(double span, double limit) {
+  return std::max(1L, static_cast<long>(std::ceil(span / limit * (1.0 - 1e-12))));
+}
+
+}  // namespace
+
+TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
+    : scene_(scene), boundaries_(boundary_options(spec, threads)), threads_(threads) {
+  if (scene.has_gas) {
+    gas_ = std::make_unique<GasCollide>(gas_options(spec, threads));
+    gas_step_ = gas_->suggest_step(scene.gas, last_gas_, 0.0, spec.run.until);
+  }
+  if (scene.has_sand) {
+    pairs_ = std::make_unique<SandPairs>(*scene.sand_law);
+    pairs_->forces(scene.sand, 0.0);
+    contact_ = std::make_unique<SurfaceContact>(surface_contact_options(spec, scene.sand_law->law.stiffness, threads));
+  }
+  compose();
+}
+
+TimeLoop::~TimeLoop() = default;
+
+int TimeLoop::timer_row(const std::string& name) {
+  const auto& rows = timers_.rows();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].name == name) return static_cast<int>(i);
+  return timers_.add(name);
+}
+
+void TimeLoop::add(std::vector<Stage>& list, const std::string& name, Stage body) {
+  const int row = timer_row(name);
+  list.push_back(
+      [this, row, body = std::move(body)](double time, double h) { timers_.time(row, [&] { body(time, h); }); });
+}
+
+void TimeLoop::compose() {
+  SandState* sand = scene_.has_sand ? &scene_.sand : nullptr;
+  GasState* gas = scene_.has_gas ? &scene_.gas : nullptr;
+  auto kick = [this](double, double h) { half_kick(scene_.sand, h, threads_); };
+  if (sand) {
+    add(begin_step_, "sand_integrate", kick);
+    add(begin_step_, "surface_contact", [this](double, double h) {
+      const SurfaceContactCounts now = contact_->run(scene_.sand, scene_.sheet, h);
+      totals_.impulse_sand += now.plate_impulse;
+      totals_.incoming += now.plate_incoming;
+      totals_.contact_loss += now.loss;
+      totals_.contact_elastic = now.elastic_energy;
+      totals_.max_penetration_over_radius = std::max(totals_.max_penetration_over_radius, now.penetration_over_radius);
+    });
+  }
+  if (gas) {
+    if (!gas->all_released()) add(sub_step_, "detonate", [this](double time, double) { detonate(scene_.gas, time); });
+    add(sub_step_, "gas_collide", [this, sand](double, double h) {
+      last_gas_ = gas_->run(scene_.gas, sand, &scene_.sheet, h, static_cast<std::uint32_t>(totals_.sub_steps));
+      totals_.impulse_gas += last_gas_.plate_impulse;
+      totals_.incoming += last_gas_.plate_incoming;
+      totals_.deferred_hits += last_gas_.deferred;
+      books_.mirror_impulse += last_gas_.mirror_impulse;
+    });
+    add(sub_step_, "gas_drift", [this, sand](double, double h) { gas_drift(scene_.gas, sand, &scene_.sheet, h); });
+  } else {
+    add(sub_step_, "sand_integrate", [this](double, double h) {
+      drift(scene_.sand, h, threads_);
+      scene_.sheet.drift(h);
+    });
+  }
+  if (sand) {
+    add(end_step_, "sand_pairs", [this](double, double h) { pairs_->forces(scene_.sand, h); });
+    add(end_step_, "sand_integrate", kick);
+  }
+  add(end_step_, "boundaries",
+      [this, gas, sand](double, double) { boundaries_.run(gas, sand, &scene_.sheet, books_); });
+}
+
+double TimeLoop::sand_step_limit() const {
+  return pairs_ ? pairs_->stable_step() : std::numeric_limits<double>::infinity();
+}
+
+double TimeLoop::stable_step() const {
+  const double gas = gas_ ? gas_step_ : std::numeric_limits<double>::infinity();
+  return std::min(gas, sand_step_limit());
+}
+
+long TimeLoop::gas_steps(double dt) {
+  return gas_ && scene_.gas.size() > 0 ? steps_to_fill(dt, gas_step_) : 1;
+}
+
+void TimeLoop::step(double time, double dt, long gas_steps) {
+  for (const Stage& stage : begin_step_) stage(time, dt);
+  const double h = dt / static_cast<double>(gas_steps);
+  for (long i = 0; i < gas_steps; ++i) {
+    for (const Stage& stage : sub_step_) stage(time + static_cast<double>(i) * h, h);
+    ++totals_.sub_steps;
+    totals_.particle_steps += static_cast<long>(scene_.gas.size());
+  }
+  if (gas_ && scene_.gas.size() > 0) gas_step_ = gas_->suggest_step(scene_.gas, last_gas_, gas_step_, gas_step_cap_);
+  for (const Stage& stage : end_step_) stage(time, dt);
+  totals_.particle_steps += static_cast<long>(scene_.sand.size());
+  ++totals_.steps;
+  totals_.step = h;
+  totals_.limited_by = gas_steps > 1 ? "gas_collide" : (scene_.has_sand ? "sand_pairs" : "window");
+}
+
+void TimeLoop::advance(double begin, double window) {
+  gas_step_cap_ = window;
+  const double end = begin + window;
+  double time = begin;
+  while (end - time > 1e-9 * window) {
+    // A sand step, or what the gas alone asks for; equal parts of what is left, so that no sliver remains.
+    const double limit = pairs_ && scene_.sand.size() > 0 ? sand_step_limit() : stable_step();
+    const long count = steps_to_fill(end - time, limit);
+    const double dt = (end - time) / static_cast<double>(count);
+    step(time, dt, gas_steps(dt));
+    time = count == 1 ? end : time + dt;
+  }
+}
+
+const SandBooks& TimeLoop::sand_books() const {
+  return pairs_->books();
+}
+
+ParticleEnergy TimeLoop::energy() const {
+  ParticleEnergy energy;
+  if (scene_.has_gas) {
+    const GasTotals gas = gas_totals(scene_.gas);
+    energy.gas_kinetic = gas.kinetic;
+    energy.gas_internal = gas.internal + gas.waiting;
+  }
+  if (scene_.has_sand) {
+    energy.sand_kinetic = kinetic_energy(scene_.sand);
+    energy.sand_elastic = pairs_->books().elastic_energy + totals_.contact_elastic;
+    energy.friction_loss = pairs_->books().friction_loss;
+    energy.damping_loss = pairs_->books().damping_loss;
+    energy.contact_loss = totals_.contact_loss;
+  }
+  energy.escaped = books_.escaped_energy;
+  energy.work_to_structure = scene_.sheet.total_work();
+  return energy;
+}
+
+Vec3 TimeLoop::momentum_everywhere() const {
+  Vec3 sum =
+      books_.mirror_impulse + books_.escaped_momentum + scene_.sheet.total_impulse() + scene_.sheet.surround_impulse();
+  if (scene_.has_gas) sum += gas_totals(scene_.gas).momentum;
+  if (scene_.has_sand) sum += momentum(scene_.sand) + pairs_->books().mirror_impulse;
+  return sum;
+}
+
+double TimeLoop::impulse_scale() const {
+  double scale = norm(books_.mirror_impulse) + norm(books_.escaped_momentum) + norm(scene_.sheet.total_impulse()) +
+                 norm(scene_.sheet.surround_impulse());
+  if (scene_.has_sand) scale += norm(pairs_->books().mirror_impulse);
+  return scale;
+}
+
+double TimeLoop::rebound() const {
+  double sum = boundaries_.totals().gas_rebound + boundaries_.totals().sand_rebound;
+  for (const double p : scene_.gas.plate_rebound) sum += std::isnan(p) ? 0.0 : p;
+  for (const double p : scene_.sand.plate_rebound) sum += std::isnan(p) ? 0.0 : p;
+  return sum;
+}
+
+}  // namespace standoff::particles

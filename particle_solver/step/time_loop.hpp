@@ -1,0 +1,83 @@
+#pragma once
+// The time loop of the particle process: the stages this scene calls for, composed once, then called in order.
+//
+//   one sand step dt                                                          one gas sub-step h = dt / n
+//   sand_integrate (half kick) -> surface_contact -> n x [ detonate -> gas_collide -> gas_drift ]
+//                  -> sand_pairs -> sand_integrate (half kick) -> boundaries
+//
+// A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
+// in the list: no test, no array, no timer row. Stage name = file name = timer name = row of the report.
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "coupling/base/stage_timer.hpp"
+#include "particle_solver/ledger/particle_ledger.hpp"
+#include "particle_solver/scene/scene.hpp"
+#include "particle_solver/step/boundaries.hpp"
+#include "particle_solver/step/gas_collide.hpp"
+#include "particle_solver/step/surface_contact.hpp"
+
+namespace standoff::particles {
+
+/// What the loop has counted since the start; simulated part, SI, positive away from the charge.
+struct LoopTotals {
+  long steps = 0, sub_steps = 0, particle_steps = 0;
+  double impulse_gas = 0.0, impulse_sand = 0.0;  // N s on the plate
+  double incoming = 0.0;                         // kg m/s at first contact with the plate
+  double contact_loss = 0.0;                     // J, grains on plate and cover
+  double contact_elastic = 0.0;                  // J now, with the soil's own law at the plate
+  double max_penetration_over_radius = 0.0;
+  long deferred_hits = 0;
+  double step = 0.0;       // s, the last
+  std::string limited_by;  // what limited it
+};
+
+class TimeLoop {
+ public:
+  TimeLoop(const CaseSpec& spec, Scene& scene, int threads);
+  ~TimeLoop();
+
+  /// Steps from `begin` to begin + window [s], equal steps that respect every stable step.
+  void advance(double begin, double window);
+  /// Smallest stable step of the scene as it is [s].
+  double stable_step() const;
+
+  const LoopTotals& totals() const { return totals_; }
+  const BoundaryBooks& boundary_books() const { return books_; }
+  const BoundaryTotals& boundary_totals() const { return boundaries_.totals(); }
+  const SandBooks& sand_books() const;
+  const StageTimers& timers() const { return timers_; }
+  ParticleEnergy energy() const;
+  /// Everything that carries or took momentum: zero change means it is conserved.
+  Vec3 momentum_everywhere() const;
+  /// Sum of |impulse| on everything that took some, the scale of momentum_error.
+  double impulse_scale() const;
+  /// Sum over particles of the momentum towards the charge after their last contact with the plate, kg m/s.
+  double rebound() const;
+
+ private:
+  using Stage = std::function<void(double time, double h)>;
+  void compose();
+  void add(std::vector<Stage>& list, const std::string& name, Stage body);
+  int timer_row(const std::string& name);
+  void step(double time, double dt, long gas_steps);
+  double sand_step_limit() const;
+  long gas_steps(double dt);
+
+  Scene& scene_;
+  StageTimers timers_;
+  std::vector<Stage> begin_step_, sub_step_, end_step_;
+  std::unique_ptr<GasCollide> gas_;
+  std::unique_ptr<SandPairs> pairs_;
+  std::unique_ptr<SurfaceContact> contact_;
+  Boundaries boundaries_;
+  BoundaryBooks books_;
+  LoopTotals totals_;
+  GasCollideCounts last_gas_;
+  double gas_step_ = 0.0, gas_step_cap_ = 0.0;  // s
+  int threads_;
+};
+
+}  // namespace standoff::particles

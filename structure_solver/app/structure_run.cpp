@@ -1,0 +1,128 @@
+#include "structure_solver/app/structure_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "coupling/output/atomic_file.hpp"
+#include "coupling/output/csv_table.hpp"
+#include "coupling/output/vtk_file.hpp"
+#include "structure_solver/app/structure_books.hpp"
+
+namespace standoff::structure {
+namespace {
+
+/// Writes plate/plate.pvd and profile.csv into the run folder, or nothing without one.
+class PlateFiles {
+ public:
+  PlateFiles(const std::string& folder) : folder_(folder) {
+    if (!folder.empty()) series_.emplace(folder + "/plate", "plate", "vtu");
+  }
+  void frame(double time, const StructuralModel& model) {
+    if (!series_) return;
+    const StructureFrame now = model.frame();
+    VtkGrid grid{now.position, now.cells, now.vtk_cell_type, {}, {}};
+    grid.point_data = {vtk_array("displacement_m", now.displacement), vtk_array("velocity_m_per_s", now.velocity)};
+    for (const auto& [name, values] : now.cell_data) grid.cell_data.push_back(vtk_array(name, values));
+    series_->add(time, vtu_text(grid));
+  }
+  void profile(const StructuralModel& model) const {
+    if (folder_.empty()) return;
+    std::vector<std::vector<double>> rows;
+    for (const ProfilePoint& p : model.profile()) rows.push_back({p.x, p.deflection});
+    write_atomically(folder_ + "/profile.csv", csv_text({"x_m", "deflection_m"}, rows));
+  }
+
+ private:
+  std::string folder_;
+  std::optional<PvdSeries> series_;
+};
+
+/// Largest window over which a hit is answered by the struck nodes alone: a shear wave crosses one quad of the surface.
+double window_limit(const SurfaceMesh& mesh, const MaterialSpec& material) {
+  const double shear = material.youngs_modulus / (2.0 * (1.0 + material.poissons_ratio));
+  double edge = 1e300;
+  for (const auto& quad : mesh.quads)
+    for (std::size_t a = 0; a < 4; ++a)
+      edge = std::min(edge, norm(mesh.position[static_cast<std::size_t>(quad[a])] -
+                                 mesh.position[static_cast<std::size_t>(quad[(a + 1) % 4])]));
+  return edge / std::sqrt(shear / material.density);
+}
+
+/// Equal steps that fill a window and respect the stable step. Returns how many.
+long advance_model(StructuralModel& model, double window) {
+  double left = window;
+  long steps = 0;
+  while (left > 1e-12 * window) {
+    const double count = std::ceil(left / model.stable_step() * (1.0 - 1e-12));
+    const double dt = left / std::max(1.0, count);
+    model.step(dt);
+    left -= dt;
+    ++steps;
+  }
+  return steps;
+}
+
+RelaxationResult come_to_rest(StructuralModel& model, StructureBooks& books, Participant& link) {
+  RelaxationOptions options;
+  options.peak_kinetic_energy = books.peak_kinetic();
+  options.progress = [&](double time, double deflection, double kinetic_ratio) {
+    link.beat();
+    link.progress({{"relax_time_s", time}, {"centre_deflection_m", deflection}, {"kinetic_ratio", kinetic_ratio}});
+  };
+  const RelaxationResult result = relax_to_rest(*model.relaxation(), options);
+  books.observe(model);
+  return result;
+}
+
+}  // namespace
+
+void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Participant& link) {
+  const std::unique_ptr<StructuralModel> model = make_structural_model(spec, options.threads);
+  PlateFiles files(options.out);
+  StructureBooks books(spec);
+  SurfaceMotion motion;
+
+  link.offer_surface(model->surface());
+  const CouplingClock clock = link.ready({model->stable_step(), window_limit(model->surface(), spec.plate.material)});
+  model->surface_motion(motion);
+
+  const double frame_interval = spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots));
+  long steps = 0, samples = 0, frames = 0;
+  auto observe = [&](double time) {
+    books.observe(*model);
+    const double slack = 0.5 * clock.window;
+    if (time + slack >= static_cast<double>(samples) * spec.observe.interval) {
+      link.sample(time, books.sample(*model));
+      samples = static_cast<long>((time + slack) / spec.observe.interval) + 1;
+    }
+    if (time + slack >= static_cast<double>(frames) * frame_interval) {
+      files.frame(time, *model);
+      frames = static_cast<long>((time + slack) / frame_interval) + 1;
+    }
+  };
+  observe(0.0);
+  while (const auto grant = link.next()) {
+    model->set_surface_force(grant->load.force);
+    steps += advance_model(*model, clock.window);
+    model->surface_motion(motion);
+    if (!grant->drain) observe(grant->begin + clock.window);
+    const StructureLedger now = model->ledger();
+    link.advance(motion, {now.impulse_received, now.external_work});
+  }
+  books.observe(*model);
+  books.close_momentum(*model);
+
+  std::optional<RelaxationResult> rest;
+  if (spec.run.settle && model->relaxation() != nullptr) {
+    const std::vector<Vec3> no_force(model->surface().position.size());
+    model->set_surface_force(no_force);
+    rest = come_to_rest(*model, books, link);
+    files.frame(model->time() + rest->simulated_time, *model);
+  }
+  files.profile(*model);
+  link.finish(books.report(*model, rest ? &*rest : nullptr, steps, link.times()).dump());
+}
+
+}  // namespace standoff::structure
