@@ -2,15 +2,15 @@
 // What every structural model offers: a surface to load, explicit steps, its books. One call per step, never per point.
 // Models are chosen by name (plate.model); each lives in its own folder and passes tests/contract/structure_model_*.
 //
-// The model owns the adjoint pair between the surface it shows and its own degrees of freedom: x_s = N x, f = N^T f_s, so
-// the work of the surface force equals the work on the degrees of freedom, and the total force is kept exactly.
+// The model owns the adjoint pair between the surface it shows and its own degrees of freedom: x_s = N x, f = N^T f_s,
+// so the work of the surface force equals the work on the degrees of freedom, and the total force is kept exactly.
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "coupling/base/state_hash.hpp"
 #include "coupling/base/stage_timer.hpp"
+#include "coupling/base/state_hash.hpp"
 #include "coupling/case/case_spec.hpp"
 #include "coupling/contract/surface.hpp"
 
@@ -20,13 +20,13 @@ class RelaxationProblem;
 
 /// Books of the simulated part, SI. Energies in J, impulses in N s.
 struct StructureLedger {
-  double kinetic = 0.0, elastic = 0.0;      // now
-  double plastic = 0.0;                     // plastic work since the start (heat is chi times it)
-  double damping = 0.0;                     // taken out by damping since the start
-  double external_work = 0.0;               // work of the surface force since the start
-  Vec3 momentum;                            // now
-  Vec3 impulse_received;                    // surface force over time since the start
-  Vec3 impulse_of_supports;                 // clamps and symmetry planes on the plate since the start
+  double kinetic = 0.0, elastic = 0.0;  // now
+  double plastic = 0.0;                 // plastic work since the start (heat is chi times it)
+  double damping = 0.0;                 // taken out by damping since the start
+  double external_work = 0.0;           // work of the surface force since the start
+  Vec3 momentum;                        // now
+  Vec3 impulse_received;                // surface force over time since the start
+  Vec3 impulse_of_supports;             // clamps and symmetry planes on the plate since the start
   /// external_work - kinetic - elastic - plastic - damping: zero up to the error of the time integration.
   double balance() const { return external_work - kinetic - elastic - plastic - damping; }
 };
@@ -44,7 +44,8 @@ struct StructureFrame {
   std::vector<Vec3> displacement, velocity;      // per node
   std::vector<std::vector<std::int64_t>> cells;  // per cell, nodes in VTK order of `vtk_cell_type`
   int vtk_cell_type = 72;                        // 72 Lagrange hexahedron, 12 hexahedron, 9 quad
-  std::vector<std::pair<std::string, std::vector<double>>> cell_data;  // e.g. plastic_strain, temperature_K, von_mises_Pa
+  std::vector<std::pair<std::string, std::vector<double>>>
+      cell_data;  // e.g. plastic_strain, temperature_K, von_mises_Pa
 };
 
 struct ProfilePoint {

@@ -1,0 +1,96 @@
+#include "structure_solver/mesh/plate_mesh.hpp"
+
+#include "coupling/base/stop.hpp"
+
+namespace standoff::structure {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw Stop(ExitCode::bad_case, text);
+}
+
+void check(const PlateMeshOptions& o) {
+  if (!(o.size.x > 0.0 && o.size.y > 0.0 && o.size.z > 0.0))
+    refuse("plate.size: every edge must be longer than zero\n  give width x, width y and thickness");
+  for (const int n : o.elements)
+    if (n < 1) refuse("plate.elements: " + std::to_string(n) + " elements along an axis; at least 1 is needed");
+  if (o.quarter && (o.elements[0] % 2 != 0 || o.elements[1] % 2 != 0))
+    refuse("plate.elements: a quarter model needs an even number of elements across the full plate, not " +
+           std::to_string(o.elements[0]) + " x " + std::to_string(o.elements[1]) +
+           "\n  choose even numbers, or run.symmetry = \"none\"");
+  if (o.edges != "clamped" && o.edges != "free")
+    refuse("plate.edges = \"" + o.edges + "\" does not exist for solid elements; edges here: clamped, free");
+  if (!(o.density > 0.0)) refuse("plate.material: the density must be positive");
+}
+
+/// Lobatto coordinates along one axis of n elements.
+std::vector<double> axis_positions(double lower, double edge, int n) {
+  std::vector<double> x;
+  for (int e = 0; e < n; ++e)
+    for (std::size_t a = 0; a < 3; ++a) x.push_back(lower + edge * (e + 0.5 * (1.0 + lobatto_node[a])));
+  x.push_back(lower + edge * n);
+  return x;
+}
+
+/// Lobatto weights assembled along one axis, sum = length.
+std::vector<double> axis_weights(double edge, int n) {
+  std::vector<double> w(static_cast<std::size_t>(3 * n + 1), 0.0);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(n); ++e)
+    for (std::size_t a = 0; a < 4; ++a) w[3 * e + a] += 0.5 * edge * lobatto_weight[a];
+  return w;
+}
+
+std::uint8_t fixed_components(const PlateMesh& mesh, int i, int j) {
+  const bool quarter = mesh.options.quarter;
+  const bool last = i == mesh.nodes[0] - 1 || j == mesh.nodes[1] - 1;
+  const bool first = !quarter && (i == 0 || j == 0);
+  if (mesh.options.edges == "clamped" && (first || last)) return fixed_all;
+  std::uint8_t bits = 0;
+  if (quarter && i == 0) bits |= fixed_x;
+  if (quarter && j == 0) bits |= fixed_y;
+  return bits;
+}
+
+}  // namespace
+
+Vec3 PlateMesh::gauss_position(long e, int q) const {
+  const int a = static_cast<int>(e) % elements[0], b = static_cast<int>(e) / elements[0] % elements[1];
+  const int c = static_cast<int>(e) / (elements[0] * elements[1]);
+  auto along = [](double low, double length, int n, int point) {
+    return low + length * (n + 0.5 * (1.0 + gauss_point[static_cast<std::size_t>(point)]));
+  };
+  return {along(lower.x, edge.x, a, q & 3), along(lower.y, edge.y, b, q >> 2 & 3), along(lower.z, edge.z, c, q >> 4)};
+}
+
+PlateMesh make_plate_mesh(const PlateMeshOptions& options) {
+  check(options);
+  PlateMesh mesh;
+  mesh.options = options;
+  mesh.elements = options.elements;
+  mesh.edge = {options.size.x / options.elements[0], options.size.y / options.elements[1],
+               options.size.z / options.elements[2]};
+  mesh.lower = {-0.5 * options.size.x, -0.5 * options.size.y, -options.size.z};
+  if (options.quarter) {
+    mesh.elements[0] /= 2, mesh.elements[1] /= 2;
+    mesh.lower.x = mesh.lower.y = 0.0;
+  }
+  for (std::size_t d = 0; d < 3; ++d) mesh.nodes[d] = 3 * mesh.elements[d] + 1;
+
+  const auto x = axis_positions(mesh.lower.x, mesh.edge.x, mesh.elements[0]);
+  const auto y = axis_positions(mesh.lower.y, mesh.edge.y, mesh.elements[1]);
+  auto z = axis_positions(mesh.lower.z, mesh.edge.z, mesh.elements[2]);
+  z.back() = 0.0;  // the loaded face, exactly
+  const auto wx = axis_weights(mesh.edge.x, mesh.elements[0]);
+  const auto wy = axis_weights(mesh.edge.y, mesh.elements[1]);
+  const auto wz = axis_weights(mesh.edge.z, mesh.elements[2]);
+  for (std::size_t k = 0; k < z.size(); ++k)
+    for (std::size_t j = 0; j < y.size(); ++j)
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        mesh.position.push_back({x[i], y[j], z[k]});
+        mesh.mass.push_back(options.density * wx[i] * wy[j] * wz[k]);
+        mesh.fixed.push_back(fixed_components(mesh, static_cast<int>(i), static_cast<int>(j)));
+      }
+  return mesh;
+}
+
+}  // namespace standoff::structure

@@ -1,0 +1,54 @@
+#pragma once
+// A rectangular plate of cubic 64-node hexahedra on a regular grid, whole or the quarter x >= 0, y >= 0.
+//
+//        z ^  loaded face z = 0          node (i, j, k) -> i + ni (j + nj k), i fastest, k = 0 at the rear face
+//   -----------------------> x           element (a, b, c) -> a + nx (b + ny c); its nodes are i = 3 a .. 3 a + 3, ...
+//   |    |    |    |    |                spaced like the Lobatto points inside each element
+//   ----------------------- z = -thickness
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupling/base/vec3.hpp"
+#include "structure_solver/elements/hex64_geometry.hpp"
+
+namespace standoff::structure {
+
+struct PlateMeshOptions {
+  Vec3 size;                               // m, full plate: width x, width y, thickness
+  std::array<int, 3> elements{10, 10, 1};  // full plate
+  bool quarter = true;
+  std::string edges = "clamped";  // "clamped" | "free"
+  double density = 0.0;           // kg/m3
+};
+
+enum FixedComponent : std::uint8_t { fixed_x = 1, fixed_y = 2, fixed_z = 4, fixed_all = 7 };
+
+struct PlateMesh {
+  PlateMeshOptions options;
+  std::array<int, 3> elements{};    // simulated
+  std::array<int, 3> nodes{};       // simulated, 3 elements + 1
+  Vec3 lower, edge;                 // m: lowest corner, edges of one element
+  std::vector<Vec3> position;       // at rest
+  std::vector<double> mass;         // row-sum lumped, kg
+  std::vector<std::uint8_t> fixed;  // FixedComponent bits
+
+  long element_count() const { return static_cast<long>(elements[0]) * elements[1] * elements[2]; }
+  std::size_t node_count() const { return position.size(); }
+  int node(int i, int j, int k) const { return i + nodes[0] * (j + nodes[1] * k); }
+  /// Node `local` (0..63, first axis fastest) of element e.
+  int element_node(long e, int local) const {
+    const int a = static_cast<int>(e) % elements[0], b = static_cast<int>(e) / elements[0] % elements[1];
+    const int c = static_cast<int>(e) / (elements[0] * elements[1]);
+    return node(3 * a + (local & 3), 3 * b + (local >> 2 & 3), 3 * c + (local >> 4));
+  }
+  BoxGeometry geometry() const { return BoxGeometry::of_edges(edge.x, edge.y, edge.z); }
+  /// Position at rest of Gauss point q of element e.
+  Vec3 gauss_position(long e, int q) const;
+};
+
+/// Throws Stop(bad_case) for a plate that cannot be meshed, with the remedy.
+PlateMesh make_plate_mesh(const PlateMeshOptions& options);
+
+}  // namespace standoff::structure

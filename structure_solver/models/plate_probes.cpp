@@ -1,0 +1,91 @@
+#include "structure_solver/models/plate_probes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace standoff::structure {
+
+PlateProbes::PlateProbes(const PlateMesh& mesh) : mesh_(mesh) {
+  centre_x_ = axis_point(0, 0.0);
+  centre_y_ = axis_point(1, 0.0);
+  middle_ = axis_point(2, -0.5 * mesh.options.size.z);
+}
+
+PlateProbes::AxisPoint PlateProbes::axis_point(std::size_t axis, double coordinate) const {
+  const double lower[3] = {mesh_.lower.x, mesh_.lower.y, mesh_.lower.z};
+  const double edge[3] = {mesh_.edge.x, mesh_.edge.y, mesh_.edge.z};
+  const double place = (coordinate - lower[axis]) / edge[axis];
+  // A point on an element boundary is that boundary's node: round first, so that no rounding error reaches the weights.
+  const double nearest = std::round(place);
+  if (std::fabs(place - nearest) < 1e-9) {
+    const int element = std::min(static_cast<int>(nearest), mesh_.elements[axis] - 1);
+    return {3 * element, static_cast<int>(nearest) == element ? Line4{1, 0, 0, 0} : Line4{0, 0, 0, 1}};
+  }
+  const int element = std::clamp(static_cast<int>(place), 0, mesh_.elements[axis] - 1);
+  return {3 * element, lagrange(lobatto_node, 2.0 * (place - element) - 1.0)};
+}
+
+double PlateProbes::mid_surface(std::span<const Vec3> u, int i, const AxisPoint& y) const {
+  double sum = 0.0;
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 4; ++j)
+      sum -= middle_.weight[static_cast<std::size_t>(k)] * y.weight[static_cast<std::size_t>(j)] *
+             u[static_cast<std::size_t>(mesh_.node(i, y.first + j, middle_.first + k))].z;
+  return sum;
+}
+
+double PlateProbes::centre_deflection(std::span<const Vec3> u) const {
+  double sum = 0.0;
+  for (int a = 0; a < 4; ++a) {
+    const double w = centre_x_.weight[static_cast<std::size_t>(a)];
+    if (w != 0.0) sum += w * mid_surface(u, centre_x_.first + a, centre_y_);
+  }
+  return sum;
+}
+
+double PlateProbes::max_deflection(std::span<const Vec3> u) const {
+  double largest = -1e300;
+  for (int j = 0; j < mesh_.nodes[1]; ++j) {
+    const int first = std::min(j / 3, mesh_.elements[1] - 1) * 3;
+    AxisPoint y{first, {}};
+    y.weight[static_cast<std::size_t>(j - first)] = 1.0;
+    for (int i = 0; i < mesh_.nodes[0]; ++i) largest = std::max(largest, mid_surface(u, i, y));
+  }
+  return largest;
+}
+
+std::vector<ProfilePoint> PlateProbes::profile(std::span<const Vec3> u) const {
+  std::vector<ProfilePoint> points;
+  for (int i = 0; i < mesh_.nodes[0]; ++i)
+    points.push_back({mesh_.position[static_cast<std::size_t>(i)].x, mid_surface(u, i, centre_y_)});
+  if (!mesh_.options.quarter) return points;
+  std::vector<ProfilePoint> full;
+  for (auto p = points.rbegin(); p + 1 != points.rend(); ++p) full.push_back({-p->x, p->deflection});
+  full.insert(full.end(), points.begin(), points.end());
+  return full;
+}
+
+StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
+  StructureExtremes x;
+  const Vec3& size = mesh_.options.size;
+  const double margin = std::max(size.x, size.y) / 20.0;  // two elements of a 40 x 40 mesh
+  double nearest = 1e300;
+  for (long e = 0; e < mesh_.element_count(); ++e)
+    for (int q = 0; q < hex_points; ++q) {
+      const double strain = forces.plastic_strain(e, q);
+      const Vec3 at = mesh_.gauss_position(e, q);
+      x.max_plastic_strain = std::max(x.max_plastic_strain, strain);
+      x.max_temperature_rise =
+          std::max(x.max_temperature_rise, forces.temperature(e, q) - forces.metal().flow.room_temperature);
+      const double to_edge = std::min(0.5 * size.x - std::fabs(at.x), 0.5 * size.y - std::fabs(at.y));
+      if (to_edge > margin)
+        x.max_plastic_strain_away_from_clamp = std::max(x.max_plastic_strain_away_from_clamp, strain);
+      // The columns of Gauss points next to the axis speak for the centre: their largest value.
+      const double distance = std::hypot(at.x, at.y);
+      if (distance < nearest * (1.0 - 1e-9)) nearest = distance, x.centre_plastic_strain = strain;
+      if (distance < nearest * (1.0 + 1e-9)) x.centre_plastic_strain = std::max(x.centre_plastic_strain, strain);
+    }
+  return x;
+}
+
+}  // namespace standoff::structure

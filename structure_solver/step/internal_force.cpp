@@ -1,0 +1,149 @@
+#include "structure_solver/step/internal_force.hpp"
+
+#include <algorithm>
+
+namespace standoff::structure {
+namespace {
+
+StaticFlow<double> initial_flow(const MetalParameters& metal, const HistoryLayout& layout, bool hardening) {
+  const double room = metal.flow.room_temperature;
+  if (!hardening) return {metal.flow.A, 0.0, 0.0};
+  if (layout.temperature < 0) return static_flow<true, false>(metal.flow, 0.0, room);
+  return static_flow<true, true>(metal.flow, 0.0, room);
+}
+
+}  // namespace
+
+KernelChoice choose_kernel(const MetalEffects& effects) {
+  switch (effects.rate) {
+    case RateLaw::power:
+      return choose_kernel_with_rate<RateLaw::power>(effects);
+    case RateLaw::logarithmic:
+      return choose_kernel_with_rate<RateLaw::logarithmic>(effects);
+    case RateLaw::none:
+      break;
+  }
+  return choose_kernel_with_rate<RateLaw::none>(effects);
+}
+
+InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal, const MetalEffects& effects,
+                             int threads)
+    : mesh_(mesh), metal_(metal), geometry_(mesh.geometry()), choice_(choose_kernel(effects)), threads_(threads) {
+  const long elements = mesh.element_count(), count = (elements + 3) / 4;
+  nodes_.resize(static_cast<std::size_t>(count));
+  sums_.resize(nodes_.size());
+  buffer_.resize(nodes_.size() * 3 * hex_nodes);
+  node_begin_.assign(mesh.node_count() + 1, 0);
+  for (long e = 0; e < 4 * count; ++e)
+    for (int a = 0; a < hex_nodes; ++a) {
+      const int node = mesh.element_node(std::min(e, elements - 1), a);
+      nodes_[static_cast<std::size_t>(e / 4)][static_cast<std::size_t>(4 * a + e % 4)] = node;
+      if (e < elements) ++node_begin_[static_cast<std::size_t>(node) + 1];
+    }
+  for (std::size_t i = 0; i < mesh.node_count(); ++i) node_begin_[i + 1] += node_begin_[i];
+  node_entry_.resize(static_cast<std::size_t>(node_begin_.back()));
+  std::vector<std::int32_t> next(node_begin_.begin(), node_begin_.end() - 1);
+  for (long e = 0; e < elements; ++e)
+    for (int a = 0; a < hex_nodes; ++a)
+      node_entry_[static_cast<std::size_t>(next[static_cast<std::size_t>(mesh.element_node(e, a))]++)] =
+          static_cast<std::int32_t>((e / 4 * 3 * hex_nodes + a) * 4 + e % 4);
+
+  const HistoryLayout& layout = choice_.layout;
+  history_.assign(nodes_.size() * hex_points * static_cast<std::size_t>(layout.fields), Pack4(0.0));
+  const double static_stress = initial_flow(metal, layout, effects.hardening).stress;
+  for (std::size_t row = 0; row < history_.size(); row += static_cast<std::size_t>(layout.fields)) {
+    if (layout.temperature >= 0)
+      history_[row + static_cast<std::size_t>(layout.temperature)] = metal.flow.room_temperature;
+    if (layout.static_stress >= 0) history_[row + static_cast<std::size_t>(layout.static_stress)] = static_stress;
+  }
+}
+
+ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step, bool commit) {
+  const auto history_stride = hex_points * static_cast<std::size_t>(choice_.layout.fields);
+  const auto count = nodes_.size();
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t b = 0; b < count; ++b)
+    sums_[b] = choice_.kernel(metal_, geometry_, step, commit, u.data(), nodes_[b].data(),
+                              &history_[b * history_stride], &buffer_[b * 3 * hex_nodes]);
+  ForceSums total;
+  const long elements = mesh_.element_count();
+  for (long e = 0; e < elements; ++e) {
+    const BatchSums& s = sums_[static_cast<std::size_t>(e / 4)];
+    total.elastic += s.elastic[e % 4];
+    total.inelastic += s.inelastic[e % 4];
+    if ((s.sound >> (e % 4) & 1u) == 0 && total.broken_element < 0) total.broken_element = e;
+  }
+  return total;
+}
+
+void InternalForce::add_to(StateHash& hash) const {
+  for (long e = 0; e < mesh_.element_count(); ++e)
+    for (int q = 0; q < hex_points; ++q)
+      for (int f = 0; f < choice_.layout.fields; ++f) hash.add(history(e, q, f));
+}
+
+void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::array<ElementMatrix, 4>& out) {
+  // Elastic strains of 1e-5: the second-order error of the difference and rounding are both near 1e-9 of the result.
+  const double delta = 1e-5 * std::min({mesh_.edge.x, mesh_.edge.y, mesh_.edge.z}) / 3.0;
+  const auto b = static_cast<std::size_t>(batch);
+  std::array<Vec3, 256> local;
+  std::array<std::int32_t, 256> own;
+  for (std::size_t i = 0; i < 256; ++i) {
+    local[i] = u[static_cast<std::size_t>(nodes_[b][i])];
+    own[i] = static_cast<std::int32_t>(i);
+  }
+  std::vector<Pack4> plus(3 * hex_nodes), minus(3 * hex_nodes);
+  Pack4* const history = &history_[b * hex_points * static_cast<std::size_t>(choice_.layout.fields)];
+  auto force_at = [&](std::size_t node, double Vec3::*component, double shift, std::vector<Pack4>& f) {
+    const auto saved = local;
+    for (std::size_t i = 0; i < 4; ++i) local[4 * node + i].*component += shift;
+    choice_.kernel(metal_, geometry_, {0.0, false}, false, local.data(), own.data(), history, f.data());
+    local = saved;
+  };
+  double Vec3::*const components[3] = {&Vec3::x, &Vec3::y, &Vec3::z};
+  for (std::size_t node = 0; node < 64; ++node)
+    for (std::size_t c = 0; c < 3; ++c) {
+      force_at(node, components[c], delta, plus);
+      force_at(node, components[c], -delta, minus);
+      for (std::size_t row = 0; row < 192; ++row) {
+        const Pack4 slope = (plus[64 * (row % 3) + row / 3] - minus[64 * (row % 3) + row / 3]) * Pack4(0.5 / delta);
+        for (std::size_t i = 0; i < 4; ++i) out[i][192 * row + 3 * node + c] = lane(slope, static_cast<int>(i));
+      }
+    }
+  for (ElementMatrix& k : out)
+    for (std::size_t i = 0; i < 192; ++i)
+      for (std::size_t j = 0; j < i; ++j) k[192 * i + j] = k[192 * j + i] = 0.5 * (k[192 * i + j] + k[192 * j + i]);
+}
+
+double InternalForce::shape_factor(std::span<const Vec3> u) const {
+  const double s0 = geometry_.scale[0], s1 = geometry_.scale[1], s2 = geometry_.scale[2];
+  const double flat = s0 * s0 + s1 * s1 + s2 * s2;
+  std::vector<double> largest(nodes_.size());
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t b = 0; b < nodes_.size(); ++b) {
+    Pack4 nodal[3][hex_nodes], gradient[3][3][hex_points];
+    for (std::size_t a = 0; a < hex_nodes; ++a)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3& v = u[static_cast<std::size_t>(nodes_[b][4 * a + i])];
+        set_lane(nodal[0][a], static_cast<int>(i), v.x), set_lane(nodal[1][a], static_cast<int>(i), v.y);
+        set_lane(nodal[2][a], static_cast<int>(i), v.z);
+      }
+    for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+    Pack4 worst(flat);
+    for (int q = 0; q < hex_points; ++q) {
+      const Mat3<Pack4> f = deformation_gradient(geometry_.reference_gradient(q, load_gradient(gradient, q)));
+      const Mat3<Pack4> c = cofactor(f);
+      const Pack4 j = rows(f, 0, c, 0);
+      Pack4 sum(0.0);
+      for (int d = 0; d < 3; ++d) {
+        const Pack4 s(geometry_.scale[d]);
+        sum += (c.m[0][d] * c.m[0][d] + c.m[1][d] * c.m[1][d] + c.m[2][d] * c.m[2][d]) * s * s;
+      }
+      worst = larger(worst, sum / (j * j));
+    }
+    largest[b] = std::max({lane(worst, 0), lane(worst, 1), lane(worst, 2), lane(worst, 3)});
+  }
+  return std::sqrt(flat / std::max(flat, *std::max_element(largest.begin(), largest.end())));
+}
+
+}  // namespace standoff::structure

@@ -1,0 +1,76 @@
+#pragma once
+// Stage internal_force: the resisting force of all elements of a plate and their committed history.
+//
+//   batches of four elements -> element force buffer -> every node sums its contributions in element order
+//
+// Each batch writes its own part of the buffer and each node is summed by one thread in a fixed order: the result has
+// the same bits for any number of threads. Idle lanes of the last batch repeat the last element and are not counted.
+//
+// DATA LAYOUT  history: Pack4[batch][64 points][fields], lane = element 4 batch + lane     buffer: Pack4[batch][3][64]
+#include <array>
+#include <span>
+#include <vector>
+
+#include "coupling/base/state_hash.hpp"
+#include "structure_solver/mesh/plate_mesh.hpp"
+#include "structure_solver/step/batch_kernels.hpp"
+
+namespace standoff::structure {
+
+struct ForceSums {
+  double elastic = 0.0, inelastic = 0.0;  // J; see ElementSums
+  long broken_element = -1;               // first element with det F <= 0 or a number that is not finite
+};
+
+class InternalForce {
+ public:
+  InternalForce(const PlateMesh& mesh, const MetalParameters& metal, const MetalEffects& effects, int threads);
+
+  /// Element forces at u into the buffer; the history is written only if `commit`.
+  ForceSums evaluate(std::span<const Vec3> u, const PointStep& step, bool commit);
+  /// Sum of the buffered element forces at node i.
+  Vec3 at_node(std::size_t i) const {
+    Vec3 sum;
+    for (std::int32_t e = node_begin_[i]; e < node_begin_[i + 1]; ++e) {
+      const double* f = reinterpret_cast<const double*>(buffer_.data()) + node_entry_[static_cast<std::size_t>(e)];
+      sum += Vec3{f[0], f[component_stride], f[2 * component_stride]};
+    }
+    return sum;
+  }
+
+  /// One number of the committed history.
+  double history(long element, int point, int field) const {
+    const auto row = (element / 4 * hex_points + point) * choice_.layout.fields + field;
+    return lane(history_[static_cast<std::size_t>(row)], static_cast<int>(element % 4));
+  }
+  double plastic_strain(long element, int point) const { return history(element, point, HistoryLayout::strain); }
+  double temperature(long element, int point) const {
+    return choice_.layout.temperature < 0 ? metal_.flow.room_temperature
+                                          : history(element, point, choice_.layout.temperature);
+  }
+  const HistoryLayout& layout() const { return choice_.layout; }
+  const MetalParameters& metal() const { return metal_; }
+  std::size_t history_bytes() const { return history_.size() * sizeof(Pack4); }
+  void add_to(StateHash& hash) const;
+
+  using ElementMatrix = std::array<double, 192 * 192>;  // [3 a + i][3 b + j], symmetric
+  /// Elastic tangent of up to four elements of a batch at u, plastic flow frozen, by central differences of the force.
+  void element_stiffness(std::span<const Vec3> u, long batch, std::array<ElementMatrix, 4>& out);
+  long batches() const { return static_cast<long>(nodes_.size()); }
+  /// Least of (stable step now / stable step at rest) over all Gauss points, from the deformed shape alone.
+  double shape_factor(std::span<const Vec3> u) const;
+
+ private:
+  static constexpr std::ptrdiff_t component_stride = 64 * 4;
+  const PlateMesh& mesh_;
+  MetalParameters metal_;
+  BoxGeometry geometry_;
+  KernelChoice choice_;
+  int threads_;
+  std::vector<std::array<std::int32_t, 256>> nodes_;  // [batch][4 local + lane]
+  std::vector<Pack4> history_, buffer_;
+  std::vector<BatchSums> sums_;                        // per batch
+  std::vector<std::int32_t> node_begin_, node_entry_;  // contributions of each node, in element order
+};
+
+}  // namespace standoff::structure
