@@ -226,6 +226,7 @@ int launch(int argc, char** argv) {
     return parse_and_call(app, actions, argc, argv);
   } catch (const Stop& stop) {
     std::fprintf(stderr, "standoff: error: %s\n", stop.what());
+    if (stop.code() == ExitCode::bad_case) std::fprintf(stderr, "nothing was started.\n");
     return static_cast<int>(stop.code());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "standoff: error: out of memory\n");

@@ -25,26 +25,54 @@ double sound_speed(const MaterialSpec& m) {
   return std::sqrt(m.youngs_modulus * (1.0 - nu) / (m.density * (1.0 + nu) * (1.0 - 2.0 * nu)));
 }
 
+double shell_volume(const SoilSpec& soil) {
+  if (soil.kind == SoilKind::none) return 0.0;
+  return 4.0 / 3.0 * pi * (cube(soil.outer_radius) - cube(soil.inner_radius));
+}
+
+double sand_mass(const SoilSpec& soil) {
+  return shell_volume(soil) * soil.bulk_density;
+}
+
+/// Volume of the body that goes with one grain, m3.
+double grain_cell(const SoilSpec& soil) {
+  return shell_volume(soil) / static_cast<double>(soil.particles);
+}
+
 Vec3 element_edges(const PlateSpec& plate) {
   return {plate.size.x / plate.elements[0], plate.size.y / plate.elements[1], plate.size.z / plate.elements[2]};
 }
 
-void plan_structure(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
-  const Vec3 edge = element_edges(spec.plate);
-  const double shortest = std::min({edge.x, edge.y, edge.z});
-  p.elements = static_cast<long>(spec.plate.elements[0]) * spec.plate.elements[1] * spec.plate.elements[2];
-  p.structure_step = c.structure_safety * c.hexahedron_courant * shortest / sound_speed(spec.plate.material);
-  p.structure_steps = std::ceil(spec.run.until / p.structure_step);
-  const double points = gauss_points * p.simulated(p.elements);
-  p.structure_s = p.structure_steps * points * c.gauss_point_step;
-  p.structure_bytes = points * gauss_point_bytes;
-  if (spec.run.settle) p.relaxation_s = c.relaxation_calls * points * c.relaxation_call;
+/// Longest window in which the plate moves a tenth of a particle's radius (what the load side asks for), from Gurney's
+/// estimate of the momentum that arrives at the plate's centre.
+double particle_window(const CaseSpec& spec, double smallest_radius) {
+  const ChargeSpec& charge = spec.charge;
+  const double energy = charge.mass * charge.explosive.energy / charge.explosive.density;
+  const double sand = sand_mass(spec.soil);
+  const double speed = std::sqrt(2.0 * energy / (sand + 0.6 * charge.mass));
+  const double area = 4.0 * pi * spec.run.stand_off * spec.run.stand_off;
+  const double wall = (sand + 0.75 * charge.mass) * speed / area / (spec.plate.material.density * spec.plate.size.z);
+  return 0.1 * smallest_radius / wall;
 }
 
-void plan_windows(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+double gas_radius(const ChargeSpec& charge) {
+  const double solid = charge.mass / charge.explosive.density;
+  return std::cbrt(3.0 * charge.explosive.fill * solid / (4.0 * pi * static_cast<double>(charge.particles)));
+}
+
+double automatic_window(const CaseSpec& spec) {
   const Vec3 edge = element_edges(spec.plate);
   const MaterialSpec& m = spec.plate.material;
   const double shear_speed = std::sqrt(m.youngs_modulus / (2.0 * (1.0 + m.poissons_ratio)) / m.density);
+  double window = std::min(edge.x, edge.y) / 3.0 / shear_speed;
+  if (!spec.charge.present) return window;
+  double radius = gas_radius(spec.charge);
+  if (spec.soil.kind != SoilKind::none)
+    radius = std::min(radius, std::cbrt(3.0 * spec.soil.packing * grain_cell(spec.soil) / (4.0 * pi)));
+  return radius > 0.0 ? std::min(window, particle_window(spec, radius)) : window;  // points ask for nothing
+}
+
+void plan_windows(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
   switch (spec.coupling.window_rule) {
     case CouplingSpec::Window::structure_step:
       p.window = p.structure_step;
@@ -53,22 +81,32 @@ void plan_windows(const CaseSpec& spec, const CostConstants& c, CostPrediction& 
       p.window = spec.coupling.window;
       break;
     case CouplingSpec::Window::automatic:
-      p.window = std::min(edge.x, edge.y) / 3.0 / shear_speed;
+      p.window = automatic_window(spec);
       break;
   }
   p.windows = std::ceil(spec.run.until / p.window * (1.0 - 1e-9));
   const double nodes = (3.0 * spec.plate.elements[0] + 1) * (3.0 * spec.plate.elements[1] + 1) / p.copies;
   const double bytes = nodes * 9.0 * sizeof(double);  // positions, velocities, forces
   p.exchange_s = p.windows * (c.exchange_window + bytes * c.exchange_byte);
-  p.structure_steps = std::max(p.structure_steps, p.windows);
+  p.structure_steps = p.windows * std::ceil(p.window / p.structure_step * (1.0 - 1e-9));
+}
+
+void plan_structure(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+  const Vec3 edge = element_edges(spec.plate);
+  const double shortest = std::min({edge.x, edge.y, edge.z});
+  p.elements = static_cast<long>(spec.plate.elements[0]) * spec.plate.elements[1] * spec.plate.elements[2];
+  p.structure_step = c.structure_safety * c.hexahedron_courant * shortest / sound_speed(spec.plate.material);
+  plan_windows(spec, c, p);
+  const double points = gauss_points * p.simulated(p.elements);
+  p.structure_s = p.structure_steps * points * c.gauss_point_step;
+  p.structure_bytes = points * gauss_point_bytes;
+  if (spec.run.settle) p.relaxation_s = c.relaxation_calls * points * c.relaxation_call;
 }
 
 /// Speed of the boundary of the gas: its own head in vacuum, or the shell it drives.
 double bubble_speed(const CaseSpec& spec, double thermal_speed, double energy_per_mass) {
   if (spec.soil.kind == SoilKind::none) return 2.0 * thermal_speed;
-  const double shell =
-      4.0 / 3.0 * pi * (cube(spec.soil.outer_radius) - cube(spec.soil.inner_radius)) * spec.soil.bulk_density;
-  return std::sqrt(2.0 * energy_per_mass / (shell / spec.charge.mass + 0.6));
+  return std::sqrt(2.0 * energy_per_mass / (sand_mass(spec.soil) / spec.charge.mass + 0.6));
 }
 
 void plan_gas(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
@@ -76,11 +114,10 @@ void plan_gas(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
   if (!spec.charge.present || spec.charge.particles <= 0) return;
   p.charge_particles = spec.charge.particles;
   const double count = static_cast<double>(spec.charge.particles);
-  const double solid = spec.charge.mass / e.density;
-  const double diameter = 2.0 * std::cbrt(3.0 * e.fill * solid / (4.0 * pi * count));
+  const double diameter = 2.0 * gas_radius(spec.charge);
   const double translational = std::min(1.0, 1.5 * (e.gamma - 1.0));
   const double speed = std::sqrt(2.0 * translational * e.energy / e.density);
-  p.gas_step = std::min(p.window, c.gas_step_fraction * diameter / speed);
+  p.gas_step = diameter > 0.0 ? std::min(p.window, c.gas_step_fraction * diameter / speed) : p.window;
 
   const double growth = bubble_speed(spec, speed, e.energy / e.density);
   constexpr int pieces = 400;
@@ -100,8 +137,7 @@ void plan_sand(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) 
   const SoilSpec& soil = spec.soil;
   if (soil.kind == SoilKind::none || soil.particles <= 0) return;
   p.sand_particles = soil.particles;
-  const double volume =
-      4.0 / 3.0 * pi * (cube(soil.outer_radius) - cube(soil.inner_radius)) / static_cast<double>(soil.particles);
+  const double volume = grain_cell(soil);
   const double mass = volume * soil.bulk_density;
   const double cell = std::cbrt(1000.0 * volume);
   p.sand_step = std::min(p.window, c.sand_step_fraction * 2.0 * std::sqrt(mass / (soil.stiffness * cell)));
@@ -149,12 +185,13 @@ EffectPrice price_of(const EffectDecision& effect, const CaseSpec& spec, const C
   if (name == "friction")
     price.bytes = grains * history_bytes, price.seconds = p.sand_steps * grains * c.grain_friction;
   if (name == "damping") price.seconds = p.sand_steps * grains * c.grain_damping;
-  if (name == "polydispersity" || name == "radius_spread") price.bytes = grains * 2.0 * sizeof(double);
+  if (name == "radius_spread") price.bytes = grains * 2.0 * sizeof(double);
+  if (name == "detonation_timing") price.bytes = gas * (sizeof(double) + 1.0 + sizeof(Vec3));
   if (name == "internal_energy") price.bytes = gas * sizeof(double), price.seconds = 0.1 * p.gas_s;
-  if (name == "plasticity") price.bytes = points * 10.0 * sizeof(double), price.seconds = 0.35 * p.structure_s;
+  if (name == "hardening") price.bytes = points * 10.0 * sizeof(double), price.seconds = 0.35 * p.structure_s;
   if (name == "strain_rate") price.seconds = 0.08 * p.structure_s;
   if (name == "heating") price.bytes = points * sizeof(double), price.seconds = 0.02 * p.structure_s;
-  if (name == "expansion" || name == "thermal_expansion") price.seconds = 0.01 * p.structure_s;
+  if (name == "expansion") price.seconds = 0.01 * p.structure_s;
   if (name == "relaxation" && spec.run.settle) price.bytes = points * factor_bytes, price.seconds = p.relaxation_s;
   return price;
 }
@@ -167,7 +204,6 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
   p.copies = spec.copies();
   p.air_particles = spec.air.on ? spec.air.particles : 0;
   plan_structure(spec, constants, p);
-  plan_windows(spec, constants, p);
   plan_gas(spec, constants, p);
   plan_sand(spec, constants, p);
   choose_threads(spec, cores, p);

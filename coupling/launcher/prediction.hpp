@@ -9,7 +9,9 @@
 //                       sqrt(2 E / (M/C + 3/5)) (Gurney 1943, sphere)
 //   sand step           f 2 sqrt(m/k), k = (L/L0) k0, L the side of a cell of 1000 grains           [Borvik 2011,
 //   sec. 3.3] structure step      courant h / c, c the longitudinal wave speed, h the shortest edge of an element
-//   window "auto"       shortest edge of a surface quad over the shear wave speed
+//   window "auto"       a shear wave crosses at most one quad of the surface, and the plate moves at most a tenth of
+//   the
+//                       smallest particle radius
 #include <string>
 #include <vector>
 

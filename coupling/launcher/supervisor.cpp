@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
 #include <sys/wait.h>
@@ -54,7 +55,9 @@ std::vector<int> SignalGate::take() {
 }
 
 Supervisor::Supervisor(const SupervisorTimes& times, SupervisorHooks hooks)
-    : times_(times), hooks_(std::move(hooks)), begin_(std::chrono::steady_clock::now()) {}
+    : times_(times), hooks_(std::move(hooks)), begin_(std::chrono::steady_clock::now()) {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);  // what a participant leaves behind is handed to us, not to the system
+}
 
 Supervisor::~Supervisor() {
   for (ChildProcess& child : children_) {
@@ -130,6 +133,7 @@ void Supervisor::reap() {
     child.signal(SIGKILL);  // whatever it left in its group; its number is still ours until the next line
     rusage usage{};
     wait4(child.pid, nullptr, 0, &usage);
+    while (waitpid(-child.pid, nullptr, 0) > 0) continue;  // its orphans have become ours
     child.alive = false;
     child.peak_bytes = usage.ru_maxrss * 1024;
     if (!cause_) ends_.push_back(*end);

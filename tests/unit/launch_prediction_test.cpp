@@ -1,0 +1,96 @@
+// Scaling laws of the prediction (formulas and sources in coupling/launcher/prediction.hpp). Ratios of closed forms:
+// tolerances are rounding where steps are not counted, and one count in N where they are.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "coupling/launcher/prediction.hpp"
+
+namespace standoff::launch {
+namespace {
+
+CaseSpec sand_case(long charge, long sand, int elements) {
+  CaseSpec spec;
+  spec.charge = {true, {"c4", 1601.0, 8.7e9, 1.4, 0.2, 8190.0}, 0.15, 0.0282, {}, charge};
+  spec.soil = {SoilKind::dry, 0.03, 0.0762, 0.6, 2700.0, 1620.0, 0.4e9, 0.3, 0.0, 0.0, sand};
+  spec.plate.material.density = 8060.0, spec.plate.material.youngs_modulus = 195e9,
+  spec.plate.material.poissons_ratio = 0.3;
+  spec.plate.size = {0.406, 0.406, 3.4e-3};
+  spec.plate.elements = {elements, elements, 1};
+  spec.run.stand_off = 0.15, spec.run.until = 2e-3;
+  spec.coupling.window_rule = CouplingSpec::Window::fixed, spec.coupling.window = 0.2e-6;
+  spec.effects = {
+      {"friction", true, "mu = 0.3", false}, {"damping", false, "xi = 0", false}, {"relaxation", true, "", false}};
+  return spec;
+}
+
+TEST(Prediction, StructureStep_IsTheMeasuredOneOfThePlate) {
+  // 0.1335 us for 64-node hexahedra of 3.4 mm thickness: an eigenvalue of the reference system; within 1 %.
+  const CostPrediction p = predict_cost(sand_case(10000, 50000, 10), 2);
+  EXPECT_NEAR(p.structure_step / CostConstants{}.structure_safety, 0.1335e-6, 0.01 * 0.1335e-6);
+}
+
+TEST(Prediction, EightTimesTheGrains_HalveTheSandStep) {
+  // m ~ 1/N and k ~ N^(-1/3): step ~ sqrt(m/k) ~ N^(-1/3).
+  CaseSpec few = sand_case(10000, 400000, 10), many = sand_case(10000, 3200000, 10);
+  few.coupling.window = many.coupling.window = 1e-5;  // longer than any step
+  EXPECT_NEAR(predict_cost(many, 2).sand_step / predict_cost(few, 2).sand_step, 0.5, 1e-12);
+}
+
+TEST(Prediction, QuarterModel_ComputesAQuarterOfTheParticles) {
+  CaseSpec spec = sand_case(10000, 50000, 10);
+  const CostPrediction quarter = predict_cost(spec, 2);
+  spec.run.quarter_symmetry = false;
+  const CostPrediction full = predict_cost(spec, 2);
+  EXPECT_DOUBLE_EQ(full.sand_s, 4.0 * quarter.sand_s);
+  EXPECT_DOUBLE_EQ(full.gas_s, 4.0 * quarter.gas_s);
+  EXPECT_DOUBLE_EQ(full.structure_s, 4.0 * quarter.structure_s);
+}
+
+TEST(Prediction, EffectThatIsOff_HasNoPrice) {
+  const CostPrediction p = predict_cost(sand_case(10000, 50000, 10), 2);
+  EXPECT_GT(p.effects[0].bytes, 0.0);
+  EXPECT_GT(p.effects[0].seconds, 0.0);
+  EXPECT_EQ(p.effects[1].bytes, 0.0);
+  EXPECT_EQ(p.effects[1].seconds, 0.0);
+}
+
+TEST(Prediction, SceneWithoutSand_HasNoSandRow) {
+  CaseSpec spec = sand_case(10000, 50000, 10);
+  spec.soil.kind = SoilKind::none;
+  const CostPrediction p = predict_cost(spec, 2);
+  EXPECT_EQ(p.sand_particles, 0);
+  EXPECT_EQ(p.sand_s + p.packing_s, 0.0);
+}
+
+TEST(Prediction, AutomaticWindow_MovesThePlateATenthOfARadius) {
+  CaseSpec spec = sand_case(10000, 50000, 10);
+  spec.coupling.window_rule = CouplingSpec::Window::automatic;
+  const double coarse = predict_cost(spec, 2).window;
+  spec = sand_case(80000, 400000, 10);
+  spec.coupling.window_rule = CouplingSpec::Window::automatic;
+  EXPECT_NEAR(predict_cost(spec, 2).window / coarse, 0.5, 1e-12);  // radius ~ N^(-1/3)
+}
+
+TEST(Prediction, Threads_NeverExceedTheCoresInSum_NorFallBelowOne) {
+  for (int cores = 1; cores <= 16; ++cores)
+    for (const int elements : {4, 10, 40}) {
+      const CostPrediction p = predict_cost(sand_case(10000, 50000, elements), cores);
+      EXPECT_GE(p.particle_threads, 1);
+      EXPECT_GE(p.structure_threads, 1);
+      EXPECT_LE(p.particle_threads + p.structure_threads, cores + 1) << cores << " cores";
+    }
+}
+
+TEST(Prediction, NothingToCompute_IsFinite) {
+  CaseSpec spec = sand_case(10000, 50000, 10);
+  spec.charge.present = false, spec.soil.kind = SoilKind::none;
+  EXPECT_TRUE(std::isfinite(predict_cost(spec, 2).wall_s));
+  spec = sand_case(10000, 50000, 10);
+  spec.charge.explosive.fill = 0.0;
+  spec.coupling.window_rule = CouplingSpec::Window::automatic;
+  EXPECT_TRUE(std::isfinite(predict_cost(spec, 2).wall_s));
+}
+
+}  // namespace
+}  // namespace standoff::launch
