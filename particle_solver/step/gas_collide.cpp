@@ -54,7 +54,7 @@ GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* s
   gas::load(work, gas, sand);
   for (work.round = 1; work.round <= most_rounds && !work.visit.empty(); ++work.round) {
     counts.searches += static_cast<long>(work.visit.size());
-    gas::search(work);
+    counts.candidates += gas::search(work);
     gas::resolve(work, gas, counts);
     gas::choose_visitors(work);
     hits_by_round.push_back(counts.hits());

@@ -30,6 +30,7 @@ struct GasCollideCounts {
   long unreleased_hits = 0;  // on gas that waits for the detonation
   long early_releases = 0;   // waiting particles that were hit loose
   long searches = 0;         // bodies that looked for their earliest hit, over all rounds
+  long candidates = 0;       // gas in the cells that these searches read
   long deferred = 0;         // hits left for the next sub-step by the limit on rounds (gas_collide.cpp); normally 0
   int rounds = 0;            // until nothing was left: the longest chain of hits that depend on each other
   int usual_rounds = 0;      // until 98 % of the hits were done: does not grow with the number of particles

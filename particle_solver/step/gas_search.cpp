@@ -21,13 +21,14 @@ bool earlier_pair(double time, Index id, Index other, double than_time, Index th
          std::tuple{std::min(id, than_other), std::max(id, than_other)};
 }
 
-/// Earliest hit of body p on other gas.
+/// Earliest hit of body p on other gas; returns how many bodies were looked at.
 template <bool Periodic>
-void look_at_gas(Work& work, Index p) {
+long look_at_gas(Work& work, Index p) {
   constexpr Partner kind = Periodic ? Partner::gas_in_periodic_cube : Partner::gas;
   const Body& me = work.body[p];
   Probe probe{me.start, me.velocity, me.since, 2.0 * work.radius, work.h, work.periodic_side};
   Index partner = nobody;
+  long looked_at = 0;
   const auto look = [&](Index q) {
     const Body& other = work.body[q];
     const Vec3 gap = nearest_image<Periodic>(other.start - me.start, work.periodic_side);
@@ -40,12 +41,14 @@ void look_at_gas(Work& work, Index p) {
   const double reach = probe.contact + half_path(me.velocity, me.since, work.h) + work.excursion;
   work.grid.visit<Periodic>(
       middle_of_path(me.start, me.velocity, me.since, work.h), reach, [&](Index begin, Index end) {
+        looked_at += end - begin;
         for (Index q = begin; q < end; q += 4)
           for (int hits = hit_in_time<kind>(work.lanes, q, probe); hits != 0; hits &= hits - 1)
             if (const Index k = q + static_cast<Index>(std::countr_zero(static_cast<unsigned>(hits))); k < end) look(k);
       });
   if (partner != nobody)
     work.choice[p] = {probe.until, partner, work.is_unreleased(partner) ? Hit::unreleased : Hit::gas};
+  return looked_at;
 }
 
 void look_at_grains(Work& work, Index p) {
@@ -129,19 +132,21 @@ void look_from_grain(Work& work, Index q) {
 
 /// Every visitor looks at all that the scene holds, in one parallel pass.
 template <bool Periodic>
-void look_around(Work& work) {
+long look_around(Work& work) {
   const bool grains = !work.grain.empty(), mirrors = work.mirrors, sheet = work.sheet != nullptr;
   const double highest = sheet ? work.sheet->highest(work.h) : 0.0;
   const std::size_t count = work.visit.size();
-#pragma omp parallel for num_threads(work.threads) schedule(dynamic, 128) if (count > worth_threads)
+  long looked_at = 0;
+#pragma omp parallel for num_threads(work.threads) schedule(dynamic, 128) reduction(+ : looked_at) if (count > worth_threads)
   for (std::size_t k = 0; k < count; ++k) {
     const Index p = work.visit[k];
     work.choice[p] = {};
-    look_at_gas<Periodic>(work, p);
+    looked_at += look_at_gas<Periodic>(work, p);
     if (grains) look_at_grains(work, p);
     if (mirrors) look_at_mirrors(work, p);
     if (sheet) look_at_sheet(work, p, highest);
   }
+  return looked_at;
 }
 
 void keep_waiting(Work& work, Index p) {
@@ -152,12 +157,8 @@ void keep_waiting(Work& work, Index p) {
 
 }  // namespace
 
-void search(Work& work) {
-  if (work.periodic_side > 0.0) {
-    look_around<true>(work);
-  } else {
-    look_around<false>(work);
-  }
+long search(Work& work) {
+  const long looked_at = work.periodic_side > 0.0 ? look_around<true>(work) : look_around<false>(work);
   work.offered.clear();
   if (work.round > 1) {  // in the first round everybody has looked
     for (const Index p : work.visit)
@@ -166,6 +167,7 @@ void search(Work& work) {
   }
   for (const Index p : work.visit) keep_waiting(work, p);
   for (const Index p : work.offered) keep_waiting(work, p);
+  return looked_at;
 }
 
 void choose_visitors(Work& work) {

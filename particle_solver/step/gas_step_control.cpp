@@ -11,6 +11,9 @@
 // that of few. The step changes by a few percent a call: one quiet step means little. While some particles still wait
 // for the detonation the many that cannot collide yet say nothing about the rest: no growth.
 //
+// In very thin gas the price of looking far sets the step: beyond some 60 candidates a search, a longer step costs more
+// than it saves.
+//
 // Too large: pressure too low, and the neighbours within v h become many; too small: time. All of it is deterministic.
 #include <algorithm>
 #include <cmath>
@@ -22,6 +25,7 @@ namespace {
 
 constexpr double dense_courant = 0.1;  // v_rms h / d
 constexpr int few_rounds = 3, many_rounds = 5;
+constexpr long many_candidates = 60;  // a search
 constexpr double growth = 1.03, shrinkage = 0.95, smallest_share = 0.5;
 
 }  // namespace
@@ -33,8 +37,9 @@ double GasCollide::suggest_step(const GasState& gas, const GasCollideCounts& las
   const double dense = dense_courant * 2.0 * gas.radius / std::sqrt(square_sum / static_cast<double>(gas.size()));
   if (last_step <= 0.0) return std::min(dense, cap);
   double next = last_step;
-  if (last.usual_rounds <= few_rounds) next *= growth;
-  if (last.usual_rounds > many_rounds) next *= shrinkage;
+  const bool far = last.candidates > many_candidates * last.searches;
+  if (last.usual_rounds <= few_rounds && !far) next *= growth;
+  if (last.usual_rounds > many_rounds || (far && next > dense)) next *= shrinkage;
   if (!gas.all_released()) next = std::min(next, dense);
   return std::min(std::max(next, smallest_share * dense), cap);
 }

@@ -121,8 +121,9 @@ inline double half_path(const Vec3& velocity, double since, double h) {
 void load(Work& work, const GasState& gas, const SandState* sand);
 void store(const Work& work, GasState& gas, SandState* sand, bool sort_state);
 
-/// gas_search.cpp: earliest hits of the bodies in work.visit; then what the others must be told of.
-void search(Work& work);
+/// gas_search.cpp: earliest hits of the bodies in work.visit; then what the others must be told of. Returns how much
+/// gas was looked at.
+long search(Work& work);
 
 /// gas_resolve.cpp: carries out the hits that are due, fills touched, touched_grains and stale.
 void resolve(Work& work, GasState& gas, GasCollideCounts& counts);
