@@ -2,12 +2,16 @@
 // When does a moving sphere first touch a moving surface? The clearance c(t) = gap - radius along its straight path is
 // known only through probes that return c and its rate. Facts used:
 //   * |dc/dt| <= L, the sum of the speed bounds: from c > 0 the time c / L is free of contact (conservative
-//   advancement:
-//     Mirtich, PhD thesis, Berkeley 1996, sec. 2.3);
+//     advancement: Mirtich, PhD thesis, Berkeley 1996, sec. 2.3);
 //   * where the surface is plane Newton's step -c / rate lands on the contact.
-// A step is the safe one, or Newton's if that is no more than `resolution` of travel longer. So whatever a step passes
-// over is a touch less than resolution / 2 deep that the sphere has left again by itself; nothing can be passed
-// through. A sign change is closed in by Newton inside the bracket.
+// A cautious step is the safe one, or up to `resolution` of travel more. First a bold step, to Newton's contact or the
+// end, is tried if it is at most four resolutions of travel; it counts only if the clearance there is what the rate
+// here foretells, within a fifth of the resolution, as on any smooth surface. A sign change is closed in by Newton.
+//
+// Nothing can be passed through: a sphere that is inside at a probe is caught. What can be missed is a touch that the
+// sphere leaves by itself between two probes. With resolution = radius / 4 the worst, a sharp point under the path of a
+// bold step, is 1 - sqrt(1 - 1/4) = 0.13 radius deep, of a cautious step 0.008 radius. After a rebound the next touch
+// in a sharp corner may be found one resolution late.
 //
 // L m/s > 0, lengths m, times s. Cost: one probe if c > L (t_to - t_from), two or three for a hit or a near miss, plus
 // one for each `resolution` of travel along the surface beyond that. Touching means c <= 1e-9 radius; approaching means

@@ -1,9 +1,10 @@
 // Law: a sphere on a straight path touches the moving sheet first at the first zero of gap - radius; on a plane that
 // moves as a whole the time is (gap - radius) / closing speed. Nothing passes through, whatever the step. Tolerances:
 // the sweep calls a sphere touching from 1e-9 radius on, so times on a plane agree within 1e-9 radius over the closing
-// speed; on other surfaces a path may graze the sheet up to radius / 8 deep without a hit (surface_sweep.hpp).
+// speed; on other surfaces a path may graze the sheet, leaving by itself, without a hit (surface_sweep.hpp).
 #include <gtest/gtest.h>
 
+#include "particle_solver/kernels/surface_sweep.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
 #include "tests/unit/particles_surface_builders.hpp"
 
@@ -47,7 +48,7 @@ TEST(FirstHit_OfASphereAlreadyTouching, FiresAtOnceIfItApproaches) {
   EXPECT_EQ(t, 3e-8);
   EXPECT_TRUE(sheet.first_hit({0.01, 0, -0.5 * radius}, {50, 0, -1}, radius, 0.0, 1e-6, t, where)) << "sunk in";
   EXPECT_FALSE(sheet.first_hit({0.01, 0, 0.9 * radius}, {50, 0, 1}, radius, 0.0, 1e-6, t, where)) << "leaving";
-  EXPECT_FALSE(sheet.first_hit({0.01, 0, -1.5 * radius}, {50, 0, -1}, radius, 0.0, 1e-6, t, where)) << "behind";
+  EXPECT_FALSE(sheet.first_hit({0.01, 0, -1.5 * radius}, {5000, 0, -1}, radius, 0.0, 1e-6, t, where)) << "behind";
   EXPECT_FALSE(sheet.first_hit({0.01, 0, radius}, {50, 0, 0}, radius, 0.0, 1e-6, t, where)) << "sliding along";
 }
 
@@ -79,17 +80,30 @@ TEST(FirstHit_AtTwelveKilometresPerSecondIntoAFoldedSheet, LetsNothingThrough) {
       again = sheet.first_hit(place, v, radius, t, step, t, where);
       if (!again) break;
       ++hits;
-      ASSERT_GT(where.gap, 0.8 * radius) << "found late";
+      // The first touch is exact; one right after a rebound in the corner of a valley may be found 0.25 radius late.
+      ASSERT_GT(where.gap, n == 0 ? (1 - 2e-9) * radius : 0.7 * radius) << "m, rebound " << n;
       const Vec3 change = where.normal * (-2.0 * dot(v - where.velocity, where.normal));
       v += change, place -= change * t;
     }
     ASSERT_FALSE(again) << "still hitting after 40 rebounds in one step";
     const SheetPoint end = sheet.closest(place + v * step, radius, step);
-    EXPECT_TRUE(end.face < 0 || end.gap > 0.8 * radius) << "gap " << end.gap << " m after a step of " << step << " s";
+    EXPECT_TRUE(end.face < 0 || end.gap > 0.7 * radius) << "gap " << end.gap << " m after a step of " << step << " s";
     const double height = (place + v * step).z - folded((place + v * step).x, 0.0).z;
     EXPECT_GT(height, -1000.0 * step) << "m, below the sheet";  // flanks move by at most 500 m/s, 60 degrees: factor 2
   }
   EXPECT_GT(hits, 500) << "the paths missed the sheet: the test says nothing";
+}
+
+TEST(Sweep_OverAPostStandingOnAPlane, IsNotFooledByTheClearPathBehindIt) {
+  // Plane 0.1 below the sphere of radius 1, a thin post under its path at x = 0.6 with its tip 0.95 below the centre:
+  // the sphere is clear at both ends of the path and touches at x = 0.6 - sqrt(1 - 0.95^2).
+  const auto probe = [](double t) -> Clearance {
+    const double distance = std::hypot(0.6 - t, 0.95), post = distance - 1.0;
+    return post < 0.1 ? Clearance{post, (t - 0.6) / distance} : Clearance{0.1, 0.0};
+  };
+  double t = -1.0;
+  ASSERT_TRUE(sweep_to_contact({1.0, 1.0, 0.25, 0.0, 1.0}, probe, t));
+  EXPECT_NEAR(t, 0.6 - std::sqrt(1.0 - 0.95 * 0.95), 1e-8);
 }
 
 TEST(FirstHit_AcrossTheSeamsOfARandomPlane, FindsOneHitAtTheExactTime) {

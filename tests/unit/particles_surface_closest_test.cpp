@@ -80,6 +80,22 @@ TEST(ClosestPoint_OnASheetFoldedToSixtyDegrees, IsTheGloballyClosestWithTheRight
   EXPECT_GT(checked, 10000);
 }
 
+TEST(ClosestPoint_AboveARidge, HasTheNormalFromTheRidgeToThePosition) {
+  const SurfaceSheet sheet(sheet_mesh(20, -0.3, 0.3, 1.0,
+                                      [](double x, double y) {
+                                        return Vec3{x, y, -std::abs(x)};
+                                      }),
+                           {});
+  for (const double slope : {-0.5, 0.0, 0.9}) {  // tangent of the angle to the vertical; the flanks' normals are at 1
+    const Vec3 offset = Vec3{slope, 0.0, 1.0} * 1e-3;
+    const SheetPoint where = sheet.closest(Vec3{0.0, 0.01, 0.0} + offset, 0.01);
+    EXPECT_NEAR(where.gap, norm(offset), 1e-15) << "m";
+    EXPECT_LT(norm(where.normal - offset / norm(offset)), 1e-12);
+  }
+  EXPECT_LT(norm(sheet.closest({0.0, 0.01, -1e-3}, 0.01).normal - Vec3{0, 0, 1}), 1.0)
+      << "sunk in: pushed to the front";
+}
+
 TEST(ClosestPoint_AboveASeamOfAPlane, GoesToTheLowestFace) {
   const SurfaceSheet sheet(flat_mesh(4, 2.0, 1.0), {});
   EXPECT_EQ(sheet.closest({0.0, 0.5, 0.1}, 0.2).face, 9);   // between 9 and 10

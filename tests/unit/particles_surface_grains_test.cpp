@@ -109,8 +109,8 @@ TEST(GrainsOnThePlate_WithOneOrThreeThreads, EndWithTheSameBits) {
   start.position.clear(), start.velocity.clear(), start.id.clear();
   for (std::uint32_t i = 0; i < 500; ++i) {
     start.position.push_back(
-        {between(random, -0.01, 0.01), between(random, -0.01, 0.01), between(random, 0.5, 1.5) * radius});
-    start.velocity.push_back(random_vector(random, 300.0)), start.id.push_back(i);
+        {between(random, -0.01, 0.01), between(random, -0.01, 0.01), between(random, 0.2, 0.9) * radius});
+    start.velocity.push_back(Vec3{0, 0, -400} + random_vector(random, 300.0)), start.id.push_back(i);
   }
   SurfaceMesh light = random_plane();
   light.node_mass.assign(light.node_mass.size(), 1e-4);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "particle_solver/kernels/surface_impact.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
 #include "tests/unit/particles_surface_builders.hpp"
 
@@ -33,12 +34,15 @@ Scene random_scene(CounterRandom& random) {
   return s;
 }
 
-void place(Scene& s, const SurfaceSheet& sheet, CounterRandom& random) {
-  const Vec3 p{between(random, -0.2, 0.2), between(random, -0.2, 0.2), 0.03};
-  s.where = sheet.closest(p, 0.1);
+/// The sheet of the scene in motion, and a point of it to hit.
+SurfaceSheet struck(Scene& s, CounterRandom& random) {
+  SurfaceSheet sheet(s.mesh, {});
+  sheet.begin_window(s.motion, false);
+  s.where = sheet.closest({between(random, -0.2, 0.2), between(random, -0.2, 0.2), 0.03}, 0.1);
+  return sheet;
 }
 
-/// Energy of particle and nodes, J.
+/// Of particle and nodes, J.
 double energy(const Scene& s, const SurfaceSheet& sheet) {
   double sum = 0.5 * s.mass * squared_norm(s.velocity);
   for (std::size_t n = 0; n < s.mesh.node_mass.size(); ++n)
@@ -55,9 +59,7 @@ TEST(Impact_OnAFreeSheet, SharesForceAndMomentExactly) {
   CounterRandom random(3, RandomUse::test, 1);
   for (int i = 0; i < 200; ++i) {
     Scene s = random_scene(random);
-    SurfaceSheet sheet(s.mesh, {});
-    sheet.begin_window(s.motion, false);
-    place(s, sheet, random);
+    SurfaceSheet sheet = struck(s, random);
     const Impact hit = sheet.collide(s.where, s.mass, 0.5, 0.3, 0.0, s.velocity);
     ASSERT_LT(hit.impulse.z, 0.0);
     SurfaceLoad load;
@@ -75,9 +77,7 @@ TEST(Impact_ElasticWithoutFriction, KeepsEnergyAndMomentumOfBoth) {
   CounterRandom random(3, RandomUse::test, 2);
   for (int i = 0; i < 200; ++i) {
     Scene s = random_scene(random);
-    SurfaceSheet sheet(s.mesh, {});
-    sheet.begin_window(s.motion, false);
-    place(s, sheet, random);
+    SurfaceSheet sheet = struck(s, random);
     const double before = energy(s, sheet), own = 0.5 * s.mass * squared_norm(s.velocity);
     const Vec3 momentum_before = momentum(s, sheet);
     const Impact hit = sheet.collide(s.where, s.mass, 1.0, 0.0, 0.0, s.velocity);
@@ -94,9 +94,7 @@ TEST(Impact_Inelastic, LeavesNoNormalVelocityAndBooksTheLoss) {
   CounterRandom random(3, RandomUse::test, 3);
   for (int i = 0; i < 200; ++i) {
     Scene s = random_scene(random);
-    SurfaceSheet sheet(s.mesh, {});
-    sheet.begin_window(s.motion, false);
-    place(s, sheet, random);
+    SurfaceSheet sheet = struck(s, random);
     const double before = energy(s, sheet);
     const Impact hit = sheet.collide(s.where, s.mass, 0.0, 0.2, 0.0, s.velocity);
     EXPECT_NEAR(dot(s.velocity - sheet.velocity_at(s.where), s.where.normal), 0.0, 1e-13 * 600) << "m/s";
@@ -120,12 +118,22 @@ TEST(Impact_WithFriction, IsCoulombLimitedAndEndsSlipAtMost) {
   }
 }
 
+TEST(Impact_OnAWallThatAnswersUnevenly, AddsNoEnergy) {
+  // A node held by a mirror plane answers along two axes only. Energy change = J.u + J.(1/m + W) J / 2.
+  CounterRandom random(3, RandomUse::test, 5);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 side = random_vector(random, 1.0), n = side / norm(side), u = random_vector(random, 1.0);
+    const Vec3 answer{between(random, 0.0, 5.0), between(random, 0.0, 5.0), between(random, 0.0, 5.0)};
+    const SurfaceImpactLaw law{between(random, 0.0, 1.0), between(random, 0.0, 2.0)};
+    const Vec3 j = surface_impulse(law, u, n, 1.0, answer);
+    EXPECT_LE(dot(j, u) + 0.5 * (squared_norm(j) + dot(j, scaled(answer, j))), 1e-15);
+  }
+}
+
 TEST(Impact_AtTimeT, LeavesThePlacesAtThatTimeAlone) {
   CounterRandom random(3, RandomUse::test, 4);
   Scene s = random_scene(random);
-  SurfaceSheet sheet(s.mesh, {});
-  sheet.begin_window(s.motion, false);
-  place(s, sheet, random);
+  SurfaceSheet sheet = struck(s, random);
   const double t = 3e-7;
   std::vector<Vec3> before;
   for (std::size_t n = 0; n < s.mesh.node_mass.size(); ++n)
