@@ -21,7 +21,7 @@ TEST(Diagnostics, FourDifferentMistakes_AreAllReportedWithTheirPositions) {
                "[charge]\n"                              // 3
                "mass = \"150 g\"\n"                      // 4
                "[plate]\n"                               // 5
-               "  materail = \"al6xn\"\n"                // 6: unknown key
+               "  materal = \"al6xn\"\n"                 // 6: unknown key
                "material = \"al6xn\"\n"                  // 7
                "size = [\"406 mm\", 406, \"3.4 mm\"]\n"  // 8: bare number
                "[run]\n"                                 // 9
@@ -33,7 +33,7 @@ TEST(Diagnostics, FourDifferentMistakes_AreAllReportedWithTheirPositions) {
   const CaseRead result = folder.read();
   EXPECT_THAT(
       result.errors,
-      ElementsAre("case.toml:6:3: error: unknown key \"materail\" in [plate]\n  did you mean \"material\"?  keys "
+      ElementsAre("case.toml:6:3: error: unknown key \"materal\" in [plate]\n  did you mean \"material\"?  keys "
                   "here: model, size, elements, edges, surround, surround_size, material",
                   "case.toml:8:19: error: size[1] = 406 has no unit; a length is needed (m, cm, mm, in, "
                   "ft)\n  the unit is part of the value: \"406 m\"",
@@ -49,8 +49,8 @@ TEST(Diagnostics, MistakesInSeveralFilesAndOptions_AreReportedTogether) {
   folder.write("case.toml", "[case]\nuse = [\"sand.toml\", \"broken.toml\"]\n" +
                                 sound_case("[efects]\n[levels.coarse]\nsand = 4\n"));
   folder.write("reference.toml", "[[references]]\nquantity = \"impulse\"\nsource = \"test\"\nvalue = \"1 N s\"\n");
-  CaseOverrides overrides = with_set({{"run.untill", "2 ms"}, {"soil.friction", "rough"}, {"nonsense", ""}});
-  overrides.level = "corse";
+  CaseOverrides overrides = with_set({{"run.untl", "2 ms"}, {"soil.friction", "rough"}, {"nonsense", ""}});
+  overrides.level = "coarce";
   overrides.seed = "-1";
   const CaseRead result = folder.read("case.toml", overrides);
   const std::vector<std::string> expected{
@@ -59,11 +59,11 @@ TEST(Diagnostics, MistakesInSeveralFilesAndOptions_AreReportedTogether) {
       "case.toml:10:2: error: unknown section [efects]\n  did you mean \"effects\"?",
       "case.toml:12:1: error: unknown key \"sand\" in [levels.coarse]\n  keys here: charge, soil, air, elements",
       "reference.toml:2:12: error: unknown result \"impulse\"",
-      "--set run.untill=2 ms: error: unknown key \"untill\" in [run]\n  did you mean \"until\"?",
+      "--set run.untl=2 ms: error: unknown key \"untl\" in [run]\n  did you mean \"until\"?",
       "--set soil.friction=rough: error: friction = \"rough\" is a text; a number is needed",
       "--set nonsense=: error: KEY=VALUE is needed",
       "--seed -1: error: seed = -1 is out of range",
-      "--level corse: error: unknown level \"corse\"\n  did you mean \"coarse\"?  levels here: coarse"};
+      "--level coarce: error: unknown level \"coarce\"\n  did you mean \"coarse\"?  levels here: coarse"};
   ASSERT_EQ(result.errors.size(), expected.size()) << all_errors(result);
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_THAT(result.errors[i], StartsWith(expected[i]));
 }

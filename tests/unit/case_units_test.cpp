@@ -118,7 +118,7 @@ TEST(Units, UnreadableText_IsAnErrorAndNeverANumber) {
 
 TEST(NearestWord, SlipsOfTheFingers_AreRecognisedAndOtherWordsAreNot) {
   const std::vector<std::string> keys{"model", "material", "size", "elements", "edges"};
-  EXPECT_EQ(nearest_word("materail", keys), "material");
+  EXPECT_EQ(nearest_word("materal", keys), "material");
   EXPECT_EQ(nearest_word("Size", keys), "size");
   EXPECT_EQ(nearest_word("element", keys), "elements");
   EXPECT_EQ(nearest_word("temperature", keys), "");
