@@ -47,18 +47,18 @@ Link::~Link() {
 void Link::join() {
   const std::lock_guard guard(mutex_);
   const auto until = Clock::now() + std::chrono::duration<double>(options_.join_deadline);
-  auto check_time = [&](const char* what) {
+  auto wait_on = [&](const char* what) {
+    dealer_.wait(slice);
+    last_heard_ = Clock::now();  // nobody owes us a sign of life yet
     pump();
     throw_if_failed();
     if (Clock::now() > until)
       throw Stop(ExitCode::participant_lost, fmt::format("{} at {} within {:g} s: is standoff-broker running there?",
                                                          what, options_.endpoint, options_.join_deadline));
-    last_heard_ = Clock::now();  // nobody owes us a sign of life yet
-    dealer_.wait(slice);
   };
-  for (dealer_.look(); !dealer_.connected(); dealer_.look()) check_time("no broker answered");
+  while (!dealer_.connected()) wait_on("no broker answered");
   post(message::Hello{options_.name, options_.role, options_.version, options_.case_hash, getpid(), host_name()});
-  while (!welcome_) check_time("the broker did not take up HELLO");
+  while (!welcome_) wait_on("the broker did not take up HELLO");
 }
 
 void Link::send(const Message& body, const Payload* payload) {

@@ -47,7 +47,13 @@ class Child {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (std::freopen(error_file.c_str(), "w", stderr) == nullptr) _exit(98);
     std::setvbuf(stderr, nullptr, _IONBF, 0);
-    std::exit(body());
+    int code = 97;
+    try {
+      code = body();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+    }
+    std::exit(code);
   }
   Child(Child&& from) noexcept : pid_(std::exchange(from.pid_, 0)), code_(from.code_) {}
   ~Child() {
