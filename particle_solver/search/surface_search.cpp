@@ -192,8 +192,7 @@ SheetFoot SurfaceSearch::closest(const SheetMotion& motion, const Vec3& position
   if (best.foot.border == 0) return best;
   const Vec3 crease = crease_normal(motion, best, t);
   if (dot(offset, crease) > 0.0) {
-    // Exactly above a seam of a plane the offset is normal to the face already; its own direction would only add
-    // rounding.
+    // Very near a seam the direction of the offset is mostly rounding; the normal of the face is as good there.
     best.gap = distance;
     if (distance > 1e-6 * smallest_edge_) best.normal = offset / distance;
     return best;
