@@ -37,6 +37,8 @@ FieldDescriptor get_field(const wire::Field& from, const zmq::message_t& frame) 
 wire::Envelope parse_envelope(const zmq::message_t& frame) {
   if (frame.size() > most_envelope_bytes)
     throw ProtocolError(fmt::format("an envelope of {} bytes; at most {}", frame.size(), most_envelope_bytes));
+  // The reason reaches the user through ProtocolError; protobuf's own lines on stderr would only hide it.
+  [[maybe_unused]] static const auto quiet = google::protobuf::SetLogHandler(nullptr);
   wire::Envelope envelope;
   if (!envelope.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || envelope.magic() != wire_magic)
     throw ProtocolError("the first frame is not an envelope of this protocol");

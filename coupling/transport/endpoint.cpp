@@ -17,7 +17,8 @@ namespace {
 
 bool is_loopback(const std::string& address) {
   const std::string host = address.substr(0, address.rfind(':'));
-  return host.starts_with("127.") || host == "localhost" || host == "[::1]";
+  const bool numbers = host.find_first_not_of("0123456789.") == std::string::npos;
+  return (numbers && host.starts_with("127.")) || host == "localhost" || host == "[::1]";
 }
 
 bool same_file(int file, const std::string& path) {
