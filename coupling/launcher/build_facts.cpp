@@ -5,15 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sched.h>
 
-#if __has_include("standoff_build_facts.hpp")
 #include "standoff_build_facts.hpp"
-#else
-#define STANDOFF_FACT_VERSION "0.1.0"
-#define STANDOFF_FACT_GIT "unknown"
-#define STANDOFF_FACT_FLAGS "unknown"
-#define STANDOFF_FACT_LIBRARIES "{}"
-#define STANDOFF_FACT_SOURCE ""
-#endif
 
 namespace standoff::launch {
 

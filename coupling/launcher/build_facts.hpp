@@ -1,5 +1,5 @@
 #pragma once
-// What this program was built from; written by coupling/launcher/launcher.cmake at build time, "unknown" without it.
+// What this program was built from; written by coupling/launcher/launcher.cmake at every build.
 #include <map>
 #include <string>
 

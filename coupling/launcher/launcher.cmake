@@ -6,6 +6,7 @@ string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${standoff_build_type}}" stan
 if(STANDOFF_SANITIZE)
   string(APPEND standoff_flags " -fsanitize=${STANDOFF_SANITIZE}")
 endif()
+string(APPEND standoff_flags "; numerics: -mavx2 -mfma -ffp-contract=off")
 set(standoff_write_facts ${CMAKE_COMMAND}
   -DHEADER=${STANDOFF_FACT_HEADER} -DSOURCE=${CMAKE_SOURCE_DIR} -DVERSION=${PROJECT_VERSION} "-DFLAGS=${standoff_flags}"
   "-DLIBRARIES=Eigen ${Eigen3_VERSION}|protobuf ${Protobuf_VERSION}|cppzmq ${cppzmq_VERSION}|SUNDIALS ${SUNDIALS_VERSION}|toml++ ${tomlplusplus_VERSION}|CLI11 ${CLI11_VERSION}|nlohmann_json ${nlohmann_json_VERSION}|fmt ${fmt_VERSION}|zlib ${ZLIB_VERSION_STRING}"

@@ -166,6 +166,17 @@ OrderedJson provenance(const RunFacts& facts, const std::map<std::string, json>&
   return j;
 }
 
+/// Members the contract names first and in its order, then the others by name.
+OrderedJson in_contract_order(const std::string& section, const json& content) {
+  OrderedJson ordered = OrderedJson::object();
+  for (const std::string key : contract_keys)
+    if (key.starts_with(section + ".") && content.contains(key.substr(section.size() + 1)))
+      ordered[key.substr(section.size() + 1)] = content.at(key.substr(section.size() + 1));
+  for (const auto& [key, value] : content.items())
+    if (!ordered.contains(key)) ordered[key] = value;
+  return ordered;
+}
+
 OrderedJson absent_keys(const OrderedJson& record) {
   OrderedJson absent = OrderedJson::array();
   for (const char* key : contract_keys) {
@@ -194,7 +205,8 @@ OrderedJson run_record(const CaseSpec& spec, const RunFacts& facts, const std::m
   record["structure_model"] = spec.plate.model;
   record["absent"] = OrderedJson::array();
   for (const char* section : {"results", "relaxation", "conservation", "counts"})
-    if (merged.contains(section) && !merged[section].is_null()) record[section] = merged[section];
+    if (merged.contains(section) && !merged[section].is_null())
+      record[section] = in_contract_order(section, merged[section]);
   record["coupling"] = coupling(spec, facts);
   record["effects"] = effects(spec, facts, merged.value("effects", json()));
   record["timing"] = OrderedJson{{"wall_s", facts.wall_s}};

@@ -65,7 +65,7 @@ class LauncherStage : public ::testing::Test {
     launcher_ = fork();
     if (launcher_ != 0) return;
     for (const auto& [name, value] : plays) setenv(name.c_str(), value.c_str(), 1);
-    setenv("STANDOFF_BIN_DIR", (root_ / "bin").c_str(), 1);
+    if (!real_programs_) setenv("STANDOFF_BIN_DIR", (root_ / "bin").c_str(), 1);
     setenv("XDG_RUNTIME_DIR", (root_ / "runtime").c_str(), 1);
     setenv("FAKE_STAGE", root_.c_str(), 1);
     if (file_limit > 0) {
@@ -84,9 +84,9 @@ class LauncherStage : public ::testing::Test {
   }
 
   /// Exit code of the launcher; -1 if it has not ended after 10 s, the contract's limit from the first failure on.
-  int finish() {
+  int finish(double seconds = 10.0) {
     int status = 0;
-    const bool ended = wait_until([&] { return waitpid(launcher_, &status, WNOHANG) == launcher_; }, 10.0);
+    const bool ended = wait_until([&] { return waitpid(launcher_, &status, WNOHANG) == launcher_; }, seconds);
     if (!ended) return -1;
     launcher_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -121,6 +121,7 @@ class LauncherStage : public ::testing::Test {
 
   files::path root_;
   pid_t launcher_ = -1;
+  bool real_programs_ = false;  // true: no stand-ins
 
  private:
   static constexpr const char* case_text = R"([case]
