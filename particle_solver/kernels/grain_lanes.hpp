@@ -4,7 +4,10 @@
 // Kernels use + - * / and the five functions below; they are given here for `double` and for `Lanes`. Each lane
 // performs the same IEEE operations as the scalar version, so both give the same bits. The only file of the sand with
 // instructions in it.
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include <immintrin.h>
 
@@ -50,6 +53,31 @@ inline bool any(LaneMask condition) {
   return _mm256_movemask_pd(__m256d(condition)) != 0;
 }
 
+/// One bit a lane.
+inline unsigned lane_bits(LaneMask condition) {
+  return static_cast<unsigned>(_mm256_movemask_pd(__m256d(condition)));
+}
+
+/// Byte orders that move the chosen ones of four 32-bit numbers to the front.
+inline constexpr auto chosen_first = [] {
+  std::array<std::array<std::uint8_t, 16>, 16> table{};
+  for (unsigned bits = 0; bits < 16; ++bits)
+    for (unsigned lane = 0, place = 0; lane < 4; ++lane)
+      if (bits >> lane & 1)
+        for (unsigned byte = 0; byte < 4; ++byte)
+          table[bits][4 * place + byte] = static_cast<std::uint8_t>(4 * lane + byte), place += byte == 3;
+  return table;
+}();
+
+/// Writes the chosen ones of four numbers to `out`, in order, and whatever after them (room for four is needed).
+/// Returns how many were chosen. No branch: which pairs touch cannot be foreseen.
+inline std::size_t append_chosen(unsigned bits, const std::uint32_t* four, std::uint32_t* out) {
+  const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(chosen_first[bits].data()));
+  const __m128i numbers = _mm_loadu_si128(reinterpret_cast<const __m128i*>(four));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(numbers, order));
+  return static_cast<std::size_t>(std::popcount(bits));
+}
+
 inline Lanes all_lanes(double a) {
   return Lanes{a, a, a, a};
 }
@@ -58,6 +86,13 @@ inline Lanes load(const GrainRecord& r) {
 }
 inline Lanes load(const double* four) {
   return Lanes(_mm256_load_pd(four));
+}
+/// The same from an address that need not be a multiple of 32.
+inline Lanes load_anywhere(const double* four) {
+  return Lanes(_mm256_loadu_pd(four));
+}
+inline void store_anywhere(double* four, Lanes a) {
+  _mm256_storeu_pd(four, __m256d(a));
 }
 inline void store(double* four, Lanes a) {
   _mm256_store_pd(four, __m256d(a));

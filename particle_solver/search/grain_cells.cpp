@@ -44,7 +44,31 @@ int whole_cells(double length, double edge) {
   return static_cast<int>(std::min(length / edge, 1e9));
 }
 
+CellsAround make_cells_around(unsigned code) {
+  CellsAround around;
+  const CellIndex at = GrainCells::cell_of(code);
+  for (int z = at.z - 1; z <= at.z + 1; ++z)
+    for (int y = at.y - 1; y <= at.y + 1; ++y)
+      for (int x = at.x - 1; x <= at.x + 1; ++x) {
+        const auto place = static_cast<unsigned>(((z + 4) / 4 * 3 + (y + 4) / 4) * 3 + (x + 4) / 4);
+        std::size_t p = 0;
+        while (p < around.count && around.parts[p].place != place) ++p;
+        if (p == around.count) around.parts[around.count++].place = place;
+        around.parts[p].cells |= 1ull << GrainCells::code_of(x & 3, y & 3, z & 3);
+      }
+  return around;
+}
+
 }  // namespace
+
+const CellsAround& cells_around(unsigned code) {
+  static const std::array<CellsAround, 64> table = [] {
+    std::array<CellsAround, 64> all;
+    for (unsigned c = 0; c < 64; ++c) all[c] = make_cells_around(c);
+    return all;
+  }();
+  return table[code];
+}
 
 void GrainCells::build(std::span<const Vec3> points, double cutoff, const Vec3* periodic_box) {
   choose_grid(points, cutoff, periodic_box);
@@ -118,6 +142,10 @@ void GrainCells::sort(std::span<const Vec3> points) {
     ++first_[point_slot_[i] + 1];
   }
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  occupied_.assign(bricks_.size(), 0);
+  for (std::size_t b = 0; b < bricks_.size(); ++b)
+    for (unsigned code = 0; code < 64; ++code)
+      if (first(b, code) != first(b, code + 1)) occupied_[b] |= 1ull << code;
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t i = 0; i < count; ++i) order_[next[point_slot_[i]]++] = static_cast<std::uint32_t>(i);
 }
@@ -125,6 +153,15 @@ void GrainCells::sort(std::span<const Vec3> points) {
 int GrainCells::find_brick(CellIndex b) const {
   if (b.x < 0 || b.y < 0 || b.z < 0 || b.x >= grid_.x || b.y >= grid_.y || b.z >= grid_.z) return -1;
   return brick_at_[slot(b)];
+}
+
+std::array<std::int32_t, 27> GrainCells::bricks_around(std::size_t brick) const {
+  std::array<std::int32_t, 27> around{};
+  const CellIndex at = bricks_[brick].at;
+  for (int place = 0; place < 27; ++place)
+    around[static_cast<std::size_t>(place)] =
+        find_brick({at.x + place % 3 - 1, at.y + place / 3 % 3 - 1, at.z + place / 9 - 1});
+  return around;
 }
 
 int GrainCells::find(CellIndex c, unsigned& code) const {

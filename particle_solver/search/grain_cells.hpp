@@ -41,6 +41,10 @@ class GrainCells {
   std::uint32_t first(std::size_t brick, unsigned code) const { return first_[brick * 64 + code]; }
   /// Brick that holds a cell after wrapping, -1 if there is none; `code` is the cell's place in it.
   int find(CellIndex cell, unsigned& code) const;
+  /// One bit per code: the cells of a brick that hold points.
+  std::uint64_t occupied(std::size_t brick) const { return occupied_[brick]; }
+  /// The 27 bricks around one and itself, -1 where there is none; place 13 is the brick. Not for periodic cells.
+  std::array<std::int32_t, 27> bricks_around(std::size_t brick) const;
   /// The same for brick coordinates (not periodic).
   int find_brick(CellIndex brick) const;
 
@@ -70,8 +74,22 @@ class GrainCells {
   CellIndex cells_, grid_;  // number of cells and of bricks along each axis
   std::vector<std::int32_t> brick_at_;
   std::vector<Brick> bricks_;
+  std::vector<std::uint64_t> occupied_;
   std::vector<std::uint32_t> first_, order_, point_slot_;
   std::vector<std::uint8_t> point_code_;
 };
+
+/// Which cells of which brick (a place in GrainCells::bricks_around) are among the 27 around a cell.
+struct CellsAround {
+  struct Part {
+    unsigned place = 0;
+    std::uint64_t cells = 0;  // a bit per code
+  };
+  std::array<Part, 8> parts{};  // a block of 3 x 3 x 3 cells reaches into at most eight bricks
+  std::size_t count = 0;
+};
+
+/// For the cell with a given code.
+const CellsAround& cells_around(unsigned code);
 
 }  // namespace standoff::particles

@@ -7,41 +7,37 @@ namespace standoff::particles {
 
 namespace {
 
-/// Calls visit(i, j, spring) for every stretched spring, each contact once, as i against j with i < j.
+/// Calls visit(i, j, spring) for every stretched spring of a block, each contact once, as i against j with i < j.
 template <class Visit>
-void for_each_spring(const std::vector<GrainBlock>& blocks, Visit&& visit) {
-  for (const GrainBlock& block : blocks)
-    for (const PairList* list : {&block.inner, &block.rim})
-      for (std::size_t g = 0; g < list->stretched.size(); ++g) {
-        if (!list->stretched[g]) continue;
-        const SpringGroup& group = list->springs[g];
-        for (std::size_t lane = 0; lane < 4; ++lane) {
-          const GrainPair pair = list->pairs[4 * g + lane];
-          const Vec3 spring{group.x[lane], group.y[lane], group.z[lane]};
-          if (pair.i < pair.j && squared_norm(spring) > 0.0) visit(pair.i, pair.j, spring);
-        }
+void for_each_spring(const GrainBlock& block, Visit&& visit) {
+  for (const PairList* list : {&block.inner, &block.rim})
+    for (std::size_t g = 0; g < list->stretched.size(); ++g)
+      for (std::size_t slot = 4 * g; slot < 4 * g + 4; ++slot) {
+        if (!(list->stretched[g] >> (slot - 4 * g) & 1)) continue;
+        const GrainPair pair = list->pairs[slot];
+        const Vec3 spring{list->springs[slot].x, list->springs[slot].y, list->springs[slot].z};
+        if (pair.i < pair.j && squared_norm(spring) > 0.0) visit(pair.i, pair.j, spring);
       }
 }
 
 }  // namespace
 
-void GrainHistory::count_starts(std::size_t count, std::span<const std::uint32_t> keys) {
+void GrainHistory::collect(const std::vector<GrainBlock>& blocks, std::size_t count, int threads) {
+  // Each block writes the counts and entries of its own grains only.
+  const auto blocks_count = static_cast<int>(blocks.size());
   start_.assign(count + 1, 0);
-  for (const std::uint32_t key : keys) ++start_[key + 1];
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (int b = 0; b < blocks_count; ++b)
+    for_each_spring(blocks[static_cast<std::size_t>(b)],
+                    [&](std::uint32_t i, std::uint32_t, const Vec3&) { ++start_[i + 1]; });
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
-  entries_.assign(keys.size(), {});
-}
-
-void GrainHistory::collect(const std::vector<GrainBlock>& blocks, std::size_t count) {
-  std::vector<std::uint32_t> keys;
-  std::vector<Entry> found;
-  for_each_spring(blocks, [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
-    keys.push_back(i);
-    found.push_back({j, false, spring});
-  });
-  count_starts(count, keys);
+  entries_.resize(start_.back());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-  for (std::size_t e = 0; e < keys.size(); ++e) entries_[next[keys[e]]++] = found[e];
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (int b = 0; b < blocks_count; ++b)
+    for_each_spring(blocks[static_cast<std::size_t>(b)], [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
+      entries_[next[i]++] = {j, false, spring};
+    });
 }
 
 void GrainHistory::collect(std::span<const GrainSpring> springs, std::span<const std::uint32_t> ids) {
@@ -54,7 +50,10 @@ void GrainHistory::collect(std::span<const GrainSpring> springs, std::span<const
     keys.push_back(std::min(a, b));
     found.push_back({std::max(a, b), false, a < b ? s.spring : -s.spring});
   }
-  count_starts(ids.size(), keys);
+  start_.assign(ids.size() + 1, 0);
+  for (const std::uint32_t key : keys) ++start_[key + 1];
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  entries_.resize(keys.size());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
   for (std::size_t e = 0; e < keys.size(); ++e) entries_[next[keys[e]]++] = found[e];
 }
@@ -69,9 +68,8 @@ void GrainHistory::apply(PairList& list, std::span<const std::uint32_t> old_inde
       Entry& entry = entries_[e];
       if (entry.other != high) continue;
       const Vec3 spring = a < b ? entry.spring : -entry.spring;
-      SpringGroup& group = list.springs[p / 4];
-      group.x[p % 4] = spring.x, group.y[p % 4] = spring.y, group.z[p % 4] = spring.z;
-      list.stretched[p / 4] = 1;
+      list.springs[p] = {spring.x, spring.y, spring.z, 0.0};
+      list.stretched[p / 4] = static_cast<std::uint8_t>(list.stretched[p / 4] | 1u << p % 4);
       // A rim pair is listed from both sides; one of them marks, so that threads do not write the same flag.
       if (mark || pair.i < pair.j) entry.found = true;
       break;
@@ -98,9 +96,10 @@ double GrainHistory::finish() {
 
 std::vector<GrainSpring> stretched_springs(const std::vector<GrainBlock>& blocks, std::span<const std::uint32_t> ids) {
   std::vector<GrainSpring> springs;
-  for_each_spring(blocks, [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
-    springs.push_back({ids[i], ids[j], spring});
-  });
+  for (const GrainBlock& block : blocks)
+    for_each_spring(block, [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
+      springs.push_back({ids[i], ids[j], spring});
+    });
   return springs;
 }
 

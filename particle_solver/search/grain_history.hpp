@@ -22,7 +22,7 @@ struct GrainSpring {
 class GrainHistory {
  public:
   /// Takes the stretched springs out of the lists of `count` grains.
-  void collect(const std::vector<GrainBlock>& blocks, std::size_t count);
+  void collect(const std::vector<GrainBlock>& blocks, std::size_t count, int threads);
   /// Takes springs from a list by id, for a restart; `ids` are in sorted order.
   void collect(std::span<const GrainSpring> springs, std::span<const std::uint32_t> ids);
   bool empty() const { return entries_.empty(); }
@@ -39,7 +39,6 @@ class GrainHistory {
     bool found = false;
     Vec3 spring;
   };
-  void count_starts(std::size_t count, std::span<const std::uint32_t> keys);
   void apply(PairList& list, std::span<const std::uint32_t> old_index, bool mark);
   std::vector<std::uint32_t> start_;  // entries of old grain i: [start_[i], start_[i + 1])
   std::vector<Entry> entries_;

@@ -1,6 +1,8 @@
 #include "particle_solver/search/grain_pairs.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 namespace standoff::particles {
 
@@ -8,7 +10,7 @@ namespace {
 
 /// Grains a block should have: enough to keep the rim small, few enough to share small scenes between threads.
 std::size_t block_size(std::size_t grains) {
-  return std::clamp<std::size_t>(grains / 12, 64, 2048);
+  return std::clamp<std::size_t>(grains / 12, 64, 4096);
 }
 
 void cut_blocks(const GrainCells& cells, std::size_t grains, std::vector<GrainBlock>& blocks) {
@@ -27,114 +29,190 @@ void cut_blocks(const GrainCells& cells, std::size_t grains, std::vector<GrainBl
   blocks.resize(used);
 }
 
-/// Decides whether two grains are near enough to be listed.
-struct NearTest {
-  std::span<const GrainRecord> grains;
-  PairListOptions options;
-  Vec3 per_box;
-
-  NearTest(std::span<const GrainRecord> all, const PairListOptions& o) : grains(all), options(o) {
-    if (o.box) per_box = {1.0 / o.box->x, 1.0 / o.box->y, 1.0 / o.box->z};
-  }
-  bool operator()(const GrainRecord& a, const GrainRecord& b) const {
-    double dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
-    if (options.box) {
-      dx -= options.box->x * nearest_integer(dx * per_box.x);
-      dy -= options.box->y * nearest_integer(dy * per_box.y);
-      dz -= options.box->z * nearest_integer(dz * per_box.z);
-    }
-    const double reach = options.radii ? a.w + b.w + options.skin : options.cutoff;
-    return dx * dx + dy * dy + dz * dz < reach * reach;
-  }
-};
-
 struct Range {
   std::uint32_t begin, end;
 };
 
-/// Lists the pairs of grain i with the grains of one other range. The whole range lies in the block or outside of it.
-void list_range(const NearTest& near, GrainBlock& block, std::uint32_t i, Range others) {
-  PairList& list = others.begin >= block.begin && others.begin < block.end ? block.inner : block.rim;
-  const GrainRecord& self = near.grains[i];
-  for (std::uint32_t j = others.begin; j < others.end; ++j)
-    if (near(self, near.grains[j])) list.pairs.push_back({i, j});
-}
-
-/// Ranges of grains around a cell that its block must look at: later cells of the block, all cells of other blocks.
-std::size_t ranges_around(const GrainCells& cells, const GrainBlock& block, CellIndex cell, std::uint32_t self_end,
-                          std::array<Range, 27>& ranges) {
-  std::size_t used = 0;
-  for (int dz = -1; dz <= 1; ++dz)
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (dx == 0 && dy == 0 && dz == 0) continue;
-        unsigned code = 0;
-        const int brick = cells.find({cell.x + dx, cell.y + dy, cell.z + dz}, code);
-        if (brick < 0) continue;
-        const auto b = static_cast<std::size_t>(brick);
-        const Range range{cells.first(b, code), cells.first(b, code + 1)};
-        if (range.begin == range.end) continue;
-        if (range.begin >= block.begin && range.begin < self_end)
-          continue;  // earlier cell of this block: has us listed
-        ranges[used++] = range;
+/// Grains that one or several others may be near to, as arrays that can be read four at a time from any place.
+class Candidates {
+ public:
+  void clear() { count_ = 0; }
+  void add(std::span<const GrainRecord> grains, Range range) {
+    const std::size_t needed = count_ + (range.end - range.begin) + padding;
+    if (records_.size() < needed) {
+      for (std::vector<double>* component : {&x_, &y_, &z_, &radius_}) component->resize(2 * needed);
+      records_.resize(2 * needed), index_.resize(2 * needed), found_.resize(2 * needed);
+    }
+    for (std::uint32_t j = range.begin; j < range.end; ++j, ++count_) records_[count_] = grains[j], index_[count_] = j;
+  }
+  /// To be called once all are added.
+  void close() {
+    if (count_ == 0) return;
+    for (std::size_t k = count_; k < count_ + padding; ++k)
+      records_[k] = {infinity, 0.0, 0.0, 0.0};  // no distance to it is small
+    for (std::size_t k = 0; k < count_ + 3; k += 4) {
+      Lanes x = load(records_[k]), y = load(records_[k + 1]), z = load(records_[k + 2]), radius = load(records_[k + 3]);
+      transpose(x, y, z, radius);
+      store_anywhere(&x_[k], x), store_anywhere(&y_[k], y), store_anywhere(&z_[k], z),
+          store_anywhere(&radius_[k], radius);
+    }
+  }
+  /// Lists the pairs of grain i with those from place `first` on that are near.
+  template <bool Radii, bool Periodic>
+  void list(const GrainRecord& self, std::uint32_t i, std::size_t first, const PairListOptions& options,
+            PairList& list) {
+    const Lanes x = all_lanes(self.x), y = all_lanes(self.y), z = all_lanes(self.z);
+    std::size_t found = 0;
+    for (std::size_t k = first; k < count_; k += 4) {
+      Lanes dx = x - load_anywhere(&x_[k]), dy = y - load_anywhere(&y_[k]), dz = z - load_anywhere(&z_[k]);
+      if constexpr (Periodic) {
+        dx -= options.box->x * nearest_integer(dx * (1.0 / options.box->x));
+        dy -= options.box->y * nearest_integer(dy * (1.0 / options.box->y));
+        dz -= options.box->z * nearest_integer(dz * (1.0 / options.box->z));
       }
-  return used;
-}
+      Lanes reach = all_lanes(options.cutoff);
+      if constexpr (Radii) reach = load_anywhere(&radius_[k]) + (self.w + options.skin);
+      const auto near = dx * dx + dy * dy + dz * dz < reach * reach;
+      found += append_chosen(lane_bits(near), &index_[k], &found_[found]);
+    }
+    for (std::size_t k = 0; k < found; ++k) list.pairs.push_back({i, found_[k]});
+  }
 
-void list_block(const GrainCells& cells, const NearTest& near, GrainBlock& block) {
-  std::array<Range, 27> ranges;
-  for (std::size_t b = block.first_brick; b < block.last_brick; ++b) {
-    const CellIndex brick = cells.bricks()[b].at;
-    for (unsigned code = 0; code < 64; ++code) {
-      const std::uint32_t begin = cells.first(b, code), end = cells.first(b, code + 1);
-      if (begin == end) continue;
-      const CellIndex in = GrainCells::cell_of(code);
-      const CellIndex cell{4 * brick.x + in.x, 4 * brick.y + in.y, 4 * brick.z + in.z};
-      const std::size_t used = ranges_around(cells, block, cell, end, ranges);
-      for (std::uint32_t i = begin; i < end; ++i) {
-        list_range(near, block, i, {i + 1, end});
-        for (std::size_t r = 0; r < used; ++r) list_range(near, block, i, ranges[r]);
+ private:
+  static constexpr std::size_t padding = 8;  // a read of four may start at the last one; transposed by fours
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::size_t count_ = 0;
+  std::vector<GrainRecord> records_;
+  std::vector<double> x_, y_, z_, radius_;
+  std::vector<std::uint32_t> index_, found_;
+};
+
+/// What the grains of a cell must be compared with: itself and later cells of the block, all cells of other blocks.
+struct Around {
+  Candidates inner, rim;
+
+  void start(std::span<const GrainRecord> grains, Range self) {
+    inner.clear(), rim.clear();
+    inner.add(grains, self);
+  }
+  void add(std::span<const GrainRecord> grains, const GrainBlock& block, Range self, Range other) {
+    if (other.begin < block.begin || other.begin >= block.end)
+      rim.add(grains, other);
+    else if (other.begin >= self.end)  // an earlier cell of this block has us listed
+      inner.add(grains, other);
+  }
+  void close() { inner.close(), rim.close(); }
+};
+
+/// Works on one block at a time; keeps its scratch.
+template <bool Radii, bool Periodic>
+class Lister {
+ public:
+  Lister(const GrainCells& cells, std::span<const GrainRecord> grains, const PairListOptions& options)
+      : cells_(cells), grains_(grains), options_(options) {}
+
+  void run(GrainBlock& block) {
+    if (cells_.too_small()) return run_all(block);
+    for (std::size_t b = block.first_brick; b < block.last_brick; ++b) {
+      if (!Periodic) bricks_ = cells_.bricks_around(b);
+      for (std::uint64_t left = cells_.occupied(b); left != 0; left &= left - 1) {
+        const auto code = static_cast<unsigned>(std::countr_zero(left));
+        const Range self = cell(b, code);
+        around_.start(grains_, self);
+        Periodic ? look_around_wrapped(block, b, code, self) : look_around(block, code, self);
+        around_.close();
+        list(block, self);
       }
     }
   }
-}
 
-/// A periodic box of fewer than three cells: cells would meet themselves, so compare all with all.
-void list_all(const NearTest& near, GrainBlock& block, std::uint32_t grains) {
-  for (std::uint32_t i = block.begin; i < block.end; ++i) {
-    list_range(near, block, i, {0, block.begin});
-    list_range(near, block, i, {i + 1, block.end});
-    list_range(near, block, i, {block.end, grains});
+ private:
+  Range cell(std::size_t brick, unsigned code) const {
+    return {cells_.first(brick, code), cells_.first(brick, code + 1)};
   }
-}
+  /// Visits the occupied ones of the 27 cells.
+  void look_around(const GrainBlock& block, unsigned code, Range self) {
+    const CellsAround& near = cells_around(code);
+    for (std::size_t p = 0; p < near.count; ++p) {
+      if (bricks_[near.parts[p].place] < 0) continue;
+      const auto other = static_cast<std::size_t>(bricks_[near.parts[p].place]);
+      for (std::uint64_t left = near.parts[p].cells & cells_.occupied(other); left != 0; left &= left - 1)
+        around_.add(grains_, block, self, cell(other, static_cast<unsigned>(std::countr_zero(left))));
+    }
+  }
+  /// The same in a periodic box, where bricks at the end are not full.
+  void look_around_wrapped(const GrainBlock& block, std::size_t b, unsigned code, Range self) {
+    const CellIndex brick = cells_.bricks()[b].at, in = GrainCells::cell_of(code);
+    for (int step = 0; step < 27; ++step) {
+      unsigned other_code = 0;
+      const int other = cells_.find(
+          {4 * brick.x + in.x + step % 3 - 1, 4 * brick.y + in.y + step / 3 % 3 - 1, 4 * brick.z + in.z + step / 9 - 1},
+          other_code);
+      if (other >= 0 && step != 13)
+        around_.add(grains_, block, self, cell(static_cast<std::size_t>(other), other_code));
+    }
+  }
+  void list(GrainBlock& block, Range self) {
+    for (std::uint32_t i = self.begin; i < self.end; ++i) {
+      around_.inner.template list<Radii, Periodic>(grains_[i], i, i - self.begin + 1, options_, block.inner);
+      around_.rim.template list<Radii, Periodic>(grains_[i], i, 0, options_, block.rim);
+    }
+  }
+  /// A periodic box of fewer than three cells: cells would meet themselves, so compare all with all.
+  void run_all(GrainBlock& block) {
+    around_.start(grains_, {block.begin, block.end});
+    around_.rim.add(grains_, {0, block.begin});
+    around_.rim.add(grains_, {block.end, static_cast<std::uint32_t>(grains_.size() - 1)});
+    around_.close();
+    list(block, {block.begin, block.end});
+  }
+
+  const GrainCells& cells_;
+  std::span<const GrainRecord> grains_;
+  const PairListOptions& options_;
+  Around around_;
+  std::array<std::int32_t, 27> bricks_{};
+};
 
 void fill_up(PairList& list, std::uint32_t begin, std::uint32_t far_away, bool springs) {
   list.count = list.pairs.size();
-  while (list.pairs.size() % 4 != 0) list.pairs.push_back({begin, far_away});
+  do list.pairs.push_back({begin, far_away});
+  while (list.pairs.size() % 4 != 0);
   if (!springs) return;
-  list.springs.assign(list.groups(), {});
+  list.springs.assign(list.pairs.size(), {});
   list.stretched.assign(list.groups(), 0);
+}
+
+template <bool Radii, bool Periodic>
+void list_blocks(const GrainCells& cells, std::span<const GrainRecord> grains, const PairListOptions& options,
+                 std::vector<GrainBlock>& blocks) {
+  const auto count = static_cast<int>(blocks.size());
+#pragma omp parallel num_threads(options.threads)
+  {
+    Lister<Radii, Periodic> lister(cells, grains, options);
+#pragma omp for schedule(dynamic, 1)
+    for (int b = 0; b < count; ++b) {
+      GrainBlock& block = blocks[static_cast<std::size_t>(b)];
+      block.inner.pairs.clear(), block.rim.pairs.clear();
+      lister.run(block);
+      const auto far_away = static_cast<std::uint32_t>(grains.size() - 1);
+      fill_up(block.inner, block.begin, far_away, options.springs);
+      fill_up(block.rim, block.begin, far_away, options.springs);
+    }
+  }
 }
 
 }  // namespace
 
 void list_grain_pairs(const GrainCells& cells, std::span<const GrainRecord> grains, const PairListOptions& options,
                       std::vector<GrainBlock>& blocks) {
-  const auto count = static_cast<std::uint32_t>(grains.size() - 1);
-  cut_blocks(cells, count, blocks);
-  const NearTest near(grains, options);
-  const auto blocks_count = static_cast<int>(blocks.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
-  for (int b = 0; b < blocks_count; ++b) {
-    GrainBlock& block = blocks[static_cast<std::size_t>(b)];
-    block.inner.pairs.clear(), block.rim.pairs.clear();
-    if (cells.too_small())
-      list_all(near, block, count);
-    else
-      list_block(cells, near, block);
-    fill_up(block.inner, block.begin, count, options.springs);
-    fill_up(block.rim, block.begin, count, options.springs);
-  }
+  cut_blocks(cells, grains.size() - 1, blocks);
+  if (options.radii)
+    options.box ? list_blocks<true, true>(cells, grains, options, blocks)
+                : list_blocks<true, false>(cells, grains, options, blocks);
+  else
+    options.box ? list_blocks<false, true>(cells, grains, options, blocks)
+                : list_blocks<false, false>(cells, grains, options, blocks);
 }
 
 }  // namespace standoff::particles

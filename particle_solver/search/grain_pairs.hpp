@@ -11,8 +11,9 @@
 // so no atomics, no colours, and the same bits for any number of threads. With 2000 grains a block that is 4 % more
 // work.
 //
-// DATA LAYOUT: pairs in groups of four (one SIMD pack). The last group is filled up with pairs (begin, far away), which
-// never touch. With friction each group has a spring per pair, and a flag: 0 = all four springs are zero.
+// DATA LAYOUT: pairs in groups of four (one SIMD pack). At least one slot at the end is filled with the pair (begin,
+// far away), which never touches. With friction each slot has a spring, and each group a bit per slot: 0 = the spring
+// is zero.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -27,16 +28,11 @@ struct GrainPair {
   std::uint32_t i = 0, j = 0;  // sorted indices
 };
 
-/// Tangential springs of four pairs, of i against j [m].
-struct alignas(32) SpringGroup {
-  std::array<double, 4> x{}, y{}, z{};
-};
-
 struct PairList {
-  std::vector<GrainPair> pairs;         // a multiple of four
+  std::vector<GrainPair> pairs;         // a multiple of four, more than `count`
   std::size_t count = 0;                // without the filling
-  std::vector<SpringGroup> springs;     // one a group; empty without friction
-  std::vector<std::uint8_t> stretched;  // one a group; empty without friction
+  std::vector<GrainRecord> springs;     // m, tangential, of i against j; empty without friction
+  std::vector<std::uint8_t> stretched;  // a bit per slot; empty without friction
   std::size_t groups() const { return pairs.size() / 4; }
 };
 

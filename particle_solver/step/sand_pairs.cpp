@@ -56,7 +56,7 @@ struct SandPairs::Impl {
   std::vector<std::uint32_t> id, old_index;           // sorted order
   std::vector<GrainRecord> grains, moves, old_moves;  // sorted order
   std::vector<Vec3> list_position;                    // sorted order, where the list was made
-  std::vector<std::vector<GrainRecord>> block_force;  // one a thread
+  std::vector<PassScratch> scratch;                   // one a thread
   bool radii = false, ready = false;
   double mean_radius = 0.0, largest_radius = 0.0, lightest = 0.0, skin = 0.0;
   long calls_since_list = 0;
@@ -147,7 +147,7 @@ void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at
   const bool springs = options.law.friction > 0.0;
   std::vector<std::uint32_t> old_place(largest_id(sand.id, id) + 1, GrainHistory::nobody);
   for (std::size_t i = 0; i < old_count; ++i) old_place[id[i]] = static_cast<std::uint32_t>(i);
-  if (springs && history.empty()) history.collect(blocks, old_count);
+  if (springs && history.empty()) history.collect(blocks, old_count, options.threads);
 
   const Vec3* periodic = options.periodic_box ? &box : nullptr;
   const double contact = 2.0 * largest_radius, cutoff = contact + skin;
@@ -191,18 +191,18 @@ void SandPairs::Impl::run_blocks(SandState& sand, double dt) {
   const RunBlock run =
       choose_pass(options.law.friction > 0.0, options.law.damping > 0.0, radii, options.periodic_box.has_value());
   std::vector<PassSums> sums(blocks.size());
-  block_force.resize(static_cast<std::size_t>(options.threads));
+  scratch.resize(static_cast<std::size_t>(options.threads));
   const auto count = static_cast<int>(blocks.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(options.threads)
   for (int b = 0; b < count; ++b) {
     GrainBlock& block = blocks[static_cast<std::size_t>(b)];
-    std::vector<GrainRecord>& force = block_force[static_cast<std::size_t>(omp_get_thread_num())];
-    force.assign(block.end - block.begin, {});
+    PassScratch& mine = scratch[static_cast<std::size_t>(omp_get_thread_num())];
+    mine.force.assign(block.end - block.begin, {});
     PassSums& sum = sums[static_cast<std::size_t>(b)];
-    sum = run(in, block, force.data());
-    if (options.mirrors.on) sum.add(run_mirrors(in, block, force.data()), 1.0);
+    sum = run(in, block, mine);
+    if (options.mirrors.on) sum.add(run_mirrors(in, block, mine), 1.0);
     for (std::size_t i = block.begin; i < block.end; ++i) {
-      const GrainRecord& f = force[i - block.begin];
+      const GrainRecord& f = mine.force[i - block.begin];
       sand.force[cells.order()[i]] = {f.x, f.y, f.z};
       sum.touching += f.w, sum.most_touching = std::max(sum.most_touching, f.w);
     }

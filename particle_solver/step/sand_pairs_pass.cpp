@@ -20,13 +20,13 @@ RunBlock choose_pass(bool friction, bool damping, bool radii, bool periodic) {
   return choose_rest<>(friction, damping, radii, periodic);
 }
 
-PassSums run_mirrors(const PassInput& in, const GrainBlock& block, GrainRecord* block_force) {
+PassSums run_mirrors(const PassInput& in, const GrainBlock& block, PassScratch& scratch) {
   PassSums sums;
   for (std::uint32_t i = block.begin; i < block.end; ++i) {
     const GrainRecord& grain = in.grains[i];
     if (grain.x >= grain.w && grain.y >= grain.w) continue;
     const GrainRecord& move = in.moves[i];
-    GrainRecord& force = block_force[i - block.begin];
+    GrainRecord& force = scratch.force[i - block.begin];
     const double dashpot = in.law.damping > 0.0 ? dashpot_over_step(in.law, 2.0 * move.w, in.dt) : 0.0;
     const auto touch = [&](double height, double approach, double& force_component, double& plane_component) {
       const MirrorContact contact = mirror_contact(in.law, height, grain.w, approach, dashpot);

@@ -1,7 +1,8 @@
 #pragma once
 // The inner loop of sand_pairs: the law of grain_contact.hpp over the pair lists of one block, four pairs at a time.
 // What a scene does not have (friction, damping, different radii, periodic box) is compiled out.
-#include <span>
+#include <array>
+#include <vector>
 
 #include "particle_solver/kernels/grain_contact.hpp"
 #include "particle_solver/search/grain_pairs.hpp"
@@ -35,22 +36,67 @@ struct PassSums {
   }
 };
 
+/// Memory that a thread keeps from block to block.
+struct PassScratch {
+  std::vector<GrainRecord> force;   // N on the block's grains; w counts contacts
+  std::vector<std::uint32_t> hits;  // slots of a list that need the law
+};
+
+using FourPairs = std::array<GrainPair, 4>;
+
 /// Differences between the records of i and j, as components. `Sum`: the fourth component is the sum of the fourth
 /// numbers.
 template <bool Sum>
-inline void pair_difference(const GrainRecord* records, const GrainPair* pairs, Lanes& x, Lanes& y, Lanes& z,
-                            Lanes& w) {
+inline void pair_difference(const GrainRecord* records, const GrainPair* pairs, Triple<Lanes>& d, Lanes& w) {
   const auto difference = [&](int lane) {
     const Lanes other = load(records[pairs[lane].j]);
     return load(records[pairs[lane].i]) - (Sum ? flip_fourth(other) : other);
   };
-  x = difference(0), y = difference(1), z = difference(2), w = difference(3);
-  transpose(x, y, z, w);
+  d.x = difference(0), d.y = difference(1), d.z = difference(2), w = difference(3);
+  transpose(d.x, d.y, d.z, w);
+}
+
+/// Separation, reach and which periodic image is the nearest.
+template <bool Radii, bool Periodic>
+inline void pair_distance(const PassInput& in, const GrainPair* pairs, GrainPairInput<Lanes>& pair,
+                          Triple<Lanes>& image) {
+  Triple<Lanes>& d = pair.separation;
+  pair_difference<Radii>(in.grains, pairs, d, pair.reach);
+  if constexpr (!Radii) pair.reach = all_lanes(in.reach);
+  if constexpr (Periodic) {
+    image = {nearest_integer(d.x * in.per_box.x), nearest_integer(d.y * in.per_box.y),
+             nearest_integer(d.z * in.per_box.z)};
+    d = {d.x - image.x * in.box.x, d.y - image.y * in.box.y, d.z - image.z * in.box.z};
+  }
+}
+
+/// Slots of pairs that touch or still hold a spring, in order; filled up to a multiple of four with an empty slot. Most
+/// listed pairs do not touch, so the law runs over this selection. Returns their number without the filling.
+template <bool Friction, bool Radii, bool Periodic>
+std::size_t select_hits(const PassInput& in, PairList& list, std::vector<std::uint32_t>& hits) {
+  if (hits.size() < list.pairs.size() + 4) hits.resize(list.pairs.size() + 4);
+  std::size_t found = 0;
+  for (std::size_t g = 0; g < list.groups(); ++g) {
+    GrainPairInput<Lanes> pair;
+    Triple<Lanes> image;
+    pair_distance<Radii, Periodic>(in, &list.pairs[4 * g], pair, image);
+    const auto touching = dot(pair.separation, pair.separation) < pair.reach * pair.reach;
+    unsigned bits = lane_bits(touching);
+    if (Periodic && 4 * g + 4 > list.count)  // every image is near: leave out the filling
+      bits &= (1u << (list.count > 4 * g ? list.count - 4 * g : 0)) - 1u;
+    const unsigned touches = bits;
+    if constexpr (Friction) bits |= list.stretched[g], list.stretched[g] = static_cast<std::uint8_t>(touches);
+    const auto slot = static_cast<std::uint32_t>(4 * g);
+    const std::array<std::uint32_t, 4> slots{slot, slot + 1, slot + 2, slot + 3};
+    found += append_chosen(bits, slots.data(), &hits[found]);
+  }
+  for (std::size_t k = found; k % 4 != 0; ++k) hits[k] = static_cast<std::uint32_t>(list.count);
+  return found;
 }
 
 /// Adds forces to i and, inside a block, their opposite to j. The fourth number counts contacts for both.
 template <bool Rim>
-inline void scatter(const Triple<Lanes>& force, Lanes touching, const GrainPair* pairs, std::size_t used,
+inline void scatter(const Triple<Lanes>& force, Lanes touching, const FourPairs& pairs, std::size_t used,
                     std::uint32_t begin, GrainRecord* block_force) {
   Lanes a = force.x, b = force.y, c = force.z, d = touching;
   transpose(a, b, c, d);
@@ -69,31 +115,22 @@ inline void scatter(const Triple<Lanes>& force, Lanes touching, const GrainPair*
 }
 
 template <bool Friction, bool Damping, bool Radii, bool Periodic, bool Rim>
-PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, GrainRecord* block_force) {
+PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, PassScratch& scratch) {
   const Lanes zero{};
   Lanes elastic{}, friction_loss{}, damping_loss{}, largest{}, virial_x{}, virial_y{}, virial_z{};
-  const std::size_t groups = list.groups();
-  for (std::size_t g = 0; g < groups; ++g) {
-    const GrainPair* pairs = &list.pairs[4 * g];
+  const std::size_t hits = select_hits<Friction, Radii, Periodic>(in, list, scratch.hits);
+  for (std::size_t h = 0; h < hits; h += 4) {
+    const std::uint32_t* slots = &scratch.hits[h];
+    const FourPairs pairs{list.pairs[slots[0]], list.pairs[slots[1]], list.pairs[slots[2]], list.pairs[slots[3]]};
     GrainPairInput<Lanes> pair;
-    Triple<Lanes>& d = pair.separation;
-    pair_difference<Radii>(in.grains, pairs, d.x, d.y, d.z, pair.reach);
-    if constexpr (!Radii) pair.reach = all_lanes(in.reach);
     Triple<Lanes> image{};
-    if constexpr (Periodic) {
-      for (std::size_t lane = list.count - 4 * g; lane < 4; ++lane)
-        pair.reach[lane] = 0.0;  // every image is near: no filling
-      image = {nearest_integer(d.x * in.per_box.x), nearest_integer(d.y * in.per_box.y),
-               nearest_integer(d.z * in.per_box.z)};
-      d = {d.x - image.x * in.box.x, d.y - image.y * in.box.y, d.z - image.z * in.box.z};
-    }
-    const auto touching = dot(d, d) < pair.reach * pair.reach;
-    if (!any(touching) && !(Friction && list.stretched[g])) continue;
-
+    pair_distance<Radii, Periodic>(in, pairs.data(), pair, image);
+    if constexpr (Periodic)
+      for (std::size_t lane = hits - h; lane < 4; ++lane) pair.reach[lane] = 0.0;  // the filling
     if constexpr (Friction || Damping) {
       Triple<Lanes>& s = pair.slip;
       Lanes inverse_masses;
-      pair_difference<Radii>(in.moves, pairs, s.x, s.y, s.z, inverse_masses);
+      pair_difference<Radii>(in.moves, pairs.data(), s, inverse_masses);
       if constexpr (Periodic)
         s = {s.x - image.x * in.box_change.x, s.y - image.y * in.box_change.y, s.z - image.z * in.box_change.z};
       if constexpr (Damping)
@@ -101,23 +138,27 @@ PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, Grai
             Radii ? dashpot_over_step(in.law, inverse_masses, in.dt) : all_lanes(in.dashpot_per_step);
     }
     if constexpr (Friction) {
-      const SpringGroup& old = list.springs[g];
-      pair.spring = {load(old.x.data()), load(old.y.data()), load(old.z.data())};
+      Lanes empty = load(list.springs[slots[3]]);
+      pair.spring = {load(list.springs[slots[0]]), load(list.springs[slots[1]]), load(list.springs[slots[2]])};
+      transpose(pair.spring.x, pair.spring.y, pair.spring.z, empty);
     }
     const GrainContact<Lanes> contact = grain_contact<Friction, Damping>(in.law, pair);
     if constexpr (Friction) {
-      SpringGroup& fresh = list.springs[g];
-      store(fresh.x.data(), contact.spring.x), store(fresh.y.data(), contact.spring.y);
-      store(fresh.z.data(), contact.spring.z);
-      list.stretched[g] = any(touching);
+      Lanes a = contact.spring.x, b = contact.spring.y, c = contact.spring.z, d{};
+      transpose(a, b, c, d);
+      store(list.springs[slots[0]], a), store(list.springs[slots[1]], b);
+      store(list.springs[slots[2]], c), store(list.springs[slots[3]], d);
       friction_loss += contact.friction_loss;
     }
     if constexpr (Damping) damping_loss += contact.damping_loss;
-    if constexpr (Periodic)
+    if constexpr (Periodic) {
+      const Triple<Lanes>& d = pair.separation;
       virial_x += contact.force.x * d.x, virial_y += contact.force.y * d.y, virial_z += contact.force.z * d.z;
+    }
     elastic += contact.elastic;
     largest = larger(largest, contact.overlap);
-    scatter<Rim>(contact.force, choose(touching, zero + 1.0, zero), pairs, list.count - 4 * g, begin, block_force);
+    const Lanes touching = choose(contact.overlap > zero, zero + 1.0, zero);
+    scatter<Rim>(contact.force, touching, pairs, hits - h, begin, scratch.force.data());
   }
   PassSums sums{lane_sum(elastic), lane_sum(friction_loss), lane_sum(damping_loss), lane_largest(largest), {}, {}};
   if constexpr (Periodic) sums.virial = {lane_sum(virial_x), lane_sum(virial_y), lane_sum(virial_z)};
@@ -126,18 +167,18 @@ PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, Grai
 
 /// Both lists of a block. A rim pair is seen by two blocks, half of its energies each.
 template <bool Friction, bool Damping, bool Radii, bool Periodic>
-PassSums run_block(const PassInput& in, GrainBlock& block, GrainRecord* block_force) {
-  PassSums sums = run_list<Friction, Damping, Radii, Periodic, false>(in, block.inner, block.begin, block_force);
-  sums.add(run_list<Friction, Damping, Radii, Periodic, true>(in, block.rim, block.begin, block_force), 0.5);
+PassSums run_block(const PassInput& in, GrainBlock& block, PassScratch& scratch) {
+  PassSums sums = run_list<Friction, Damping, Radii, Periodic, false>(in, block.inner, block.begin, scratch);
+  sums.add(run_list<Friction, Damping, Radii, Periodic, true>(in, block.rim, block.begin, scratch), 0.5);
   return sums;
 }
 
-using RunBlock = PassSums (*)(const PassInput&, GrainBlock&, GrainRecord*);
+using RunBlock = PassSums (*)(const PassInput&, GrainBlock&, PassScratch&);
 
 /// The loop for a scene; chosen once.
 RunBlock choose_pass(bool friction, bool damping, bool radii, bool periodic);
 
 /// Contacts of a block's grains with their images in the mirror planes x = 0 and y = 0.
-PassSums run_mirrors(const PassInput& in, const GrainBlock& block, GrainRecord* block_force);
+PassSums run_mirrors(const PassInput& in, const GrainBlock& block, PassScratch& scratch);
 
 }  // namespace standoff::particles
