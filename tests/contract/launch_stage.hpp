@@ -51,6 +51,7 @@ class LauncherStage : public ::testing::Test {
     for (const char* name : {"broker", "particles", "structure"}) {
       const files::path program = root_ / "bin" / (std::string("standoff-") + name);
       files::copy_file(STANDOFF_SOURCE_DIR "/tests/contract/launch_stand_in.sh", program);
+      files::permissions(program, files::perms::owner_all);
     }
   }
   ~LauncherStage() override {
