@@ -16,7 +16,7 @@ double sheet_energy(const SurfaceSheet& sheet, double node_mass) {
 }
 
 TEST(GasOnAFreeSheet_ManyHitsInOneWindow_ConserveMomentumAndEnergy, AndNothingPasses) {
-  const double node_mass = 0.05;
+  const double node_mass = 0.2;  // 16 kg of sheet against 1 kg of gas: it gives way, but keeps its shape for a while
   const SurfaceMesh mesh = test::flat_mesh(8, 2.0, node_mass);
   SurfaceSheet sheet(mesh, {});
   sheet.begin_window(test::at_rest(mesh), false);
@@ -27,7 +27,7 @@ TEST(GasOnAFreeSheet_ManyHitsInOneWindow_ConserveMomentumAndEnergy, AndNothingPa
   const double energy = gas_totals(gas).energy();
   GasCollide collide({});
   GasCollideCounts sum;
-  test::run_gas(collide, gas, nullptr, &sheet, 120, 1e9, [&](const GasCollideCounts& counts, double) {
+  test::run_gas(collide, gas, nullptr, &sheet, 80, 0.01, [&](const GasCollideCounts& counts, double) {
     sum.sheet_hits += counts.sheet_hits;
     sum.plate_impulse += counts.plate_impulse, sum.plate_incoming += counts.plate_incoming;
   });
