@@ -11,7 +11,7 @@ namespace standoff {
 
 /// The wetted surface as bilinear quads, offered once by the structure. Quads are ordered so that the right-hand normal
 /// points to the loaded side (+z for a flat plate). node_mass [kg]: inertia that answers an impulse at the node within one
-/// window; the sum is the mass behind the simulated surface.
+/// window, such that a hit with bilinear weights w meets the mass 1 / sum(w_a^2 / node_mass_a).
 struct SurfaceMesh {
   std::vector<Vec3> position;                     // n_nodes, at rest
   std::vector<std::array<std::int32_t, 4>> quads; // n_quads, node indices

@@ -59,7 +59,7 @@ double window_limit(const CaseSpec& spec, const Scene& scene) {
   const double momentum = (sand + 0.75 * charge) * speed;
   const double specific = momentum / (4.0 * std::numbers::pi * spec.run.stand_off * spec.run.stand_off);
   const double wall_speed = specific / (spec.plate.material.density * spec.plate.size.z);
-  return wall_speed > 0.0 ? 0.1 * radius / wall_speed : spec.run.until;
+  return wall_speed > 0.0 ? radius / wall_speed : spec.run.until;
 }
 
 }  // namespace standoff::particles

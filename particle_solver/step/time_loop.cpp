@@ -75,6 +75,9 @@ void TimeLoop::compose() {
       totals_.max_penetration_over_radius = std::max(totals_.max_penetration_over_radius, now.penetration_over_radius);
     });
   }
+  // Between the half kick and the drift no force is pending: a grain may leave without its neighbours losing momentum.
+  add(begin_step_, "boundaries",
+      [this, gas, sand](double, double) { boundaries_.run(gas, sand, &scene_.sheet, books_); });
   if (gas) {
     if (!gas->all_released()) add(sub_step_, "detonate", [this](double time, double) { detonate(scene_.gas, time); });
     add(sub_step_, "gas_collide", [this, sand](double, double h) {
@@ -95,8 +98,6 @@ void TimeLoop::compose() {
     add(end_step_, "sand_pairs", [this](double, double h) { pairs_->forces(scene_.sand, h); });
     add(end_step_, "sand_integrate", kick);
   }
-  add(end_step_, "boundaries",
-      [this, gas, sand](double, double) { boundaries_.run(gas, sand, &scene_.sheet, books_); });
 }
 
 double TimeLoop::sand_step_limit() const {

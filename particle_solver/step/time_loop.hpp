@@ -2,8 +2,8 @@
 // The time loop of the particle process: the stages this scene calls for, composed once, then called in order.
 //
 //   one sand step dt                                                          one gas sub-step h = dt / n
-//   sand_integrate (half kick) -> surface_contact -> n x [ detonate -> gas_collide -> gas_drift ]
-//                  -> sand_pairs -> sand_integrate (half kick) -> boundaries
+//   sand_integrate (half kick) -> surface_contact -> boundaries -> n x [ detonate -> gas_collide -> gas_drift ]
+//                  -> sand_pairs -> sand_integrate (half kick)
 //
 // A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
 // in the list: no test, no array, no timer row. Stage name = file name = timer name = row of the report.

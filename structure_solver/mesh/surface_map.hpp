@@ -5,6 +5,7 @@
 // Lobatto points, so N interpolates the cubic shape; bilinear weights straight onto Lobatto nodes would overload the
 // element corners.
 #include <span>
+#include <utility>
 
 #include "coupling/contract/surface.hpp"
 #include "structure_solver/mesh/plate_mesh.hpp"
@@ -31,6 +32,8 @@ struct SparseRows {
 class SurfaceMap {
  public:
   explicit SurfaceMap(const PlateMesh& mesh);
+  /// Replaces the masses the surface shows [kg], one per surface node.
+  void show_inertia(std::vector<double> node_mass) { surface_.node_mass = std::move(node_mass); }
   const SurfaceMesh& surface() const { return surface_; }
   /// N times nodal values.
   void to_surface(std::span<const Vec3> nodal, std::span<Vec3> surface) const;

@@ -1,15 +1,30 @@
 #include "structure_solver/models/plate_hex64.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "coupling/base/stop.hpp"
+#include "structure_solver/mesh/surface_inertia.hpp"
 
 namespace standoff::structure {
 namespace {
 
 constexpr double strain_rate_interval = 10e-6;  // s, the contract's definition of max_strain_rate
 
+/// Longitudinal wave through the thickness, m/s.
+double wave_speed(const MaterialSpec& m) {
+  const double nu = m.poissons_ratio;
+  return std::sqrt(m.youngs_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu) * m.density));
+}
+
 }  // namespace
+
+/// How long a hit is answered by the masses alone: the window, where it is known before the run.
+double PlateHex64::answer_time(const CaseSpec& spec) const {
+  if (spec.coupling.window_rule == CouplingSpec::Window::structure_step) return plate_.stable_step();
+  if (spec.coupling.window_rule == CouplingSpec::Window::fixed) return spec.coupling.window;
+  return spec.run.until;
+}
 
 PlateHex64::PlateHex64(const CaseSpec& spec, int threads)
     : plate_(spec, threads),
@@ -19,6 +34,7 @@ PlateHex64::PlateHex64(const CaseSpec& spec, int threads)
       external_force_(timers_.add("external_force")),
       internal_force_(timers_.add("internal_force")),
       integrate_(timers_.add("integrate")) {
+  map_.show_inertia(surface_inertia(plate_.mesh(), wave_speed(spec.plate.material), answer_time(spec)));
   if (metal_effects(spec).rate != RateLaw::none)
     strain_mark_.assign(static_cast<std::size_t>(plate_.mesh().element_count()) * hex_points, 0.0);
 }

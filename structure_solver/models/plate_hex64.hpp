@@ -30,6 +30,7 @@ class PlateHex64 final : public StructuralModel {
 
  private:
   void watch_strain_rate();
+  double answer_time(const CaseSpec& spec) const;
 
   PlateSolid plate_;
   SurfaceMap map_;

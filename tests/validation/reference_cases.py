@@ -1,0 +1,107 @@
+#!/usr/bin/python3
+"""Runs the reference cases end to end and judges what run.json promises.
+
+Every bound has its reason beside it. Deflections are not compared with tests here: a run is honest or not, and how far it
+lies from the experiment is printed by the program and discussed in the case's README.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+STANDOFF = ROOT / "build/release/bin/standoff"
+failures = []
+
+
+def expect(what, holds, detail=""):
+    print(f"  {'pass' if holds else 'FAIL'}  {what}  {detail}", flush=True)
+    if not holds:
+        failures.append(f"{what}  {detail}")
+
+
+def run(case, out, *options, exit_code=0):
+    command = [STANDOFF, "run", ROOT / "cases" / case, "--out", out, "--quiet", *options]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+    expect(f"{case} {' '.join(options)} ends with exit {exit_code}", done.returncode == exit_code,
+           f"exit {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}" if done.returncode != exit_code else "")
+    return json.loads((out / "run.json").read_text())
+
+
+def judge_books(record):
+    books = record["conservation"]
+    # Exact in time-of-impact hits; velocity Verlet and central differences leave a few per mille.
+    expect("energy error of the particles < 1 %", books["energy_error_particles"] < 0.01, f"{books['energy_error_particles']:.2e}")
+    expect("energy error of the structure < 1 %", books["energy_error_structure"] < 0.01, f"{books['energy_error_structure']:.2e}")
+    # Not zero: the load of a window acts one window later.
+    expect("interface work error < 5 %", books["interface_work_error"] < 0.05, f"{books['interface_work_error']:.2e}")
+    # Rounding only: impulses, not forces, cross the interface.
+    expect("momentum error < 1e-9", books["momentum_error"] < 1e-9, f"{books['momentum_error']:.2e}")
+    expect("at rest", record["relaxation"]["at_rest"] is True, str(record["relaxation"]))
+    expect("status done", record["status"] == "done")
+
+
+def judge_dry(folder):
+    record = run("borvik_2011/dry_150mm", folder / "dry", "--level", "coarse")
+    judge_books(record)
+    deflection = record["results"]["permanent_centre_deflection_m"]
+    # Wide enough for the spread over seeds (1 to 4 mm) about both the published 31.7 mm and the measured 38.5 mm.
+    expect("dry: permanent deflection 24 to 46 mm", 0.024 < deflection < 0.046, f"{1e3 * deflection:.2f} mm")
+
+
+def judge_bare(folder):
+    record = run("borvik_2011/bare_150mm", folder / "bare", "--level", "coarse")
+    judge_books(record)
+    impulse = record["results"]["impulse_Ns"]
+    # Published about 130 Ns; Kingery-Bulmash scaled to C-4 gives 101 to 133 Ns; vacuum instead of air adds a few percent.
+    expect("bare: impulse 120 to 155 Ns", 120.0 < impulse < 155.0, f"{impulse:.1f} Ns")
+
+
+def judge_repeatability(folder):
+    short = ["--level", "coarse", "--set", "run.until=0.3 ms", "--set", "run.settle=false"]
+    hashes = [run("borvik_2011/dry_150mm", folder / f"hash{i}", *short, "--threads", threads)["provenance"]["state_hash"]
+              for i, threads in enumerate(("1", "2", "1"))]
+    expect("same state hash for 1 and 2 threads and a repeated run", len(set(hashes)) == 1, " ".join(hashes))
+
+
+def judge_mistakes(folder):
+    case = folder / "wrong"
+    case.mkdir()
+    (case / "case.toml").write_text(
+        '[case]\ntitle = "four mistakes"\n[charge]\nexplosive = "c4"\nmass = "150 mm"\n[plate]\nmateril = "al6xn"\n'
+        'size = ["406 mm", "406 mm", "3.4 mm"]\nmaterial = "al6xn"\n[run]\nstand_off = 0.15\nuntil = "2 ms"\n'
+        'symmetry = "half"\n')
+    done = subprocess.run([STANDOFF, "run", case, "--out", folder / "never"], capture_output=True, text=True)
+    text = done.stdout + done.stderr
+    expect("four mistakes: exit 2", done.returncode == 2, str(done.returncode))
+    for place in ("case.toml:5:", "case.toml:7:", "case.toml:11:", "case.toml:13:"):
+        expect(f"four mistakes: {place}", place in text, text)
+    expect("four mistakes: nothing was created", not (folder / "never").exists())
+
+
+def judge_paraview(folder):
+    script = folder / "open.py"
+    script.write_text(
+        "import sys\nfrom paraview.simple import PVDReader, UpdatePipeline\nfrom paraview import servermanager\n"
+        "for name in sys.argv[1:]:\n    reader = PVDReader(FileName=name)\n    times = list(reader.TimestepValues)\n"
+        "    UpdatePipeline(times[-1], reader)\n    data = servermanager.Fetch(reader)\n"
+        "    assert len(times) > 5 and data.GetNumberOfPoints() > 0 and data.GetNumberOfCells() > 0, name\n"
+        "    print(name, len(times), data.GetNumberOfPoints(), data.GetNumberOfCells())\n")
+    series = [folder / "dry/plate/plate.pvd", folder / "dry/particles/particles.pvd"]
+    done = subprocess.run(["pvpython", "--force-offscreen-rendering", script, *series], capture_output=True, text=True)
+    expect("ParaView opens both series", done.returncode == 0, done.stdout + done.stderr)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for judge in (judge_mistakes, judge_dry, judge_bare, judge_repeatability, judge_paraview):
+            print(judge.__name__)
+            judge(folder)
+    print(f"{len(failures)} failed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
