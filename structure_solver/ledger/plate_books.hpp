@@ -1,9 +1,9 @@
 #pragma once
 // The discrete books of central differences: what a step with a force held constant adds, such that they close exactly.
 //   momentum   m (v_{n+1} - v_n) = dt (fe - (f_n + f_{n+1}) / 2): received and support impulses use the same halves
-//   energy     W = dt fe . (v_n + v_{n+1}) / 2; for a linear structure the sum of the stored energy and of the kinetic
-//   energy
-//              of the scheme, 1/2 m v_n^2 - dt^2 / 8 f_n^2 / m, changes by exactly W (f internal force at t_n)
+//   energy     W = fe . (u_{n+1} - u_n), force times the way of its point: a load that follows the interpolated
+//              motion of the surface finds the same work. In a linear structure stored plus kinetic energy changes by
+//              exactly W while the force is held, up to dt^2/8 m a^2, which comes and goes.
 // Sums run over chunks of fixed size, then over chunks in order: same bits for any number of threads.
 #include <cstddef>
 #include <vector>

@@ -7,9 +7,11 @@
 //
 // With rate the unknown is x = ln(1 + dp / (rate0 dt)): the rate term is brutally stiff in dp (slope C sigma / (rate0
 // dt)) and nearly linear in x; lagging the rate instead makes it chatter. g falls from g(0) > 0 to g(Q/3G) <= 0: one
-// root, kept in a bracket; a Newton step that leaves the bracket becomes a bisection. Converged when |g| <=
-// yield_tolerance A, the tolerance of the yield test as well, so a committed state evaluated again does not flow. Lanes
-// stop one by one and keep their bits.
+// root, kept in a bracket; Halley steps (the curvature is known but for the bend of the static flow stress), and a step
+// that leaves the bracket becomes a bisection. Converged when |g| <= yield_tolerance A, the tolerance of the yield test
+// as well, so a committed state evaluated again does not flow. In x the error after a step dx is below |g dx|
+// (curvature over slope is about 1), so a last step with |g dx| <= tolerance / 4 is taken without evaluating g once
+// more. Lanes stop one by one and keep their bits.
 #include "structure_solver/materials/johnson_cook.hpp"
 
 namespace standoff::structure {
@@ -36,30 +38,44 @@ struct FlowResult {
   T x;              // ln(1 + rate/rate0)
 };
 
-/// Value and slope of g at the unknown (x with WithRate, dp without), and the state there.
+/// g and its derivatives by the unknown (x with rate, dp without), and the state there.
+template <class T>
+struct FlowResidual {
+  T g, slope, curvature;
+  T increment, increment_slope;   // dp
+  T static_stress, static_slope;  // by dp
+};
+
+template <class T>
+inline T temperature_after(const FlowProblem<T>& f, T dp) {
+  return fused(T(f.heating) * fused_minus(T(f.triple_shear), dp, f.trial), dp, f.temperature);
+}
+
 template <bool Hardening, bool Softening, RateLaw Rate, class T>
-inline FlowResult<T> flow_residual(const JohnsonCook& law, const FlowProblem<T>& f, T unknown, T& g, T& slope) {
-  T dp = unknown, dp_slope = T(1.0), factor = T(1.0), factor_slope = T(0.0);
+inline FlowResidual<T> flow_residual(const JohnsonCook& law, const FlowProblem<T>& f, T unknown) {
+  FlowResidual<T> r{T(0.0), T(0.0), T(0.0), unknown, T(1.0), T(0.0), T(0.0)};
+  RateFactor<T> rate{T(1.0), T(0.0)};
   if constexpr (Rate != RateLaw::none) {
     const T exp_x = exponential(unknown);
-    dp_slope = T(f.rate_strain) * exp_x;
-    dp = fused(T(f.rate_strain), exp_x, T(-f.rate_strain));
-    const RateFactor<T> rate = rate_factor<Rate>(law, unknown, exp_x);
-    factor = rate.factor, factor_slope = rate.by_x;
+    r.increment_slope = T(f.rate_strain) * exp_x;
+    r.increment = fused(T(f.rate_strain), exp_x, T(-f.rate_strain));
+    rate = rate_factor<Rate>(law, unknown, exp_x);
   }
-  const T stress = fused_minus(T(f.triple_shear), dp, f.trial);
-  T temperature = f.temperature, heat_slope = T(0.0);
+  const T stress = fused_minus(T(f.triple_shear), r.increment, f.trial);
+  const StaticFlow<T> flow =
+      static_flow<Hardening, Softening>(law, f.strain + r.increment, temperature_after(f, r.increment));
+  r.static_stress = flow.stress, r.static_slope = flow.by_strain;
   if constexpr (Softening) {
-    temperature = fused(T(f.heating) * stress, dp, f.temperature);
-    heat_slope = T(f.heating) * fused_minus(T(f.triple_shear), dp, stress);
+    const T heat_slope = T(f.heating) * fused_minus(T(f.triple_shear), r.increment, stress);
+    r.static_slope = fused(flow.by_temperature, heat_slope, r.static_slope);
   }
-  const StaticFlow<T> flow = static_flow<Hardening, Softening>(law, f.strain + dp, temperature);
-  T static_slope = flow.by_strain;
-  if constexpr (Softening) static_slope = fused(flow.by_temperature, heat_slope, static_slope);
-  const T by_unknown = fused(flow.stress, factor_slope, factor * static_slope * dp_slope);
-  g = fused_minus(f.volume_ratio * flow.stress, factor, stress);
-  slope = -fused(T(f.triple_shear), dp_slope, f.volume_ratio * by_unknown);
-  return {dp, temperature, flow.stress, unknown};
+  const T by_increment = rate.factor * r.static_slope * r.increment_slope;
+  r.g = fused_minus(f.volume_ratio * flow.stress, rate.factor, stress);
+  r.slope = -fused(T(f.triple_shear), r.increment_slope, f.volume_ratio * fused(flow.stress, rate.by_x, by_increment));
+  if constexpr (Rate == RateLaw::power)
+    r.curvature = -fused(T(f.triple_shear), r.increment_slope,
+                         f.volume_ratio * fused(T(law.C) * flow.stress, rate.by_x, by_increment));
+  return r;
 }
 
 /// Solves for the lanes in `active`; `guess` is the unknown of the last flow of the point.
@@ -71,21 +87,28 @@ inline FlowResult<T> solve_flow(const JohnsonCook& law, const FlowProblem<T>& f,
   const T tolerance = T(yield_tolerance * law.A);
   FlowResult<T> result{T(0.0), f.temperature, T(law.A), guess};
   for (int i = 0; i < flow_iterations && any(active); ++i) {
-    T g, slope;
-    const FlowResult<T> now = flow_residual<Hardening, Softening, Rate>(law, f, unknown, g, slope);
-    const MaskOf<T> done = active & (larger(g, -g) <= tolerance);
-    result.increment = select(active, now.increment, result.increment);
-    result.temperature = select(active, now.temperature, result.temperature);
-    result.static_stress = select(active, now.static_stress, result.static_stress);
-    result.x = select(active, now.x, result.x);
-    active = active & invert(done);
-    const MaskOf<T> left = g > T(0.0);
+    const FlowResidual<T> r = flow_residual<Hardening, Softening, Rate>(law, f, unknown);
+    const MaskOf<T> left = r.g > T(0.0);
     low = select(left, unknown, low), high = select(left, high, unknown);
-    const T newton = unknown - g / slope;
-    const MaskOf<T> inside = (newton > low) & (newton < high);
-    unknown = select(inside, newton, T(0.5) * (low + high));
+    const T newton = -r.g / r.slope;
+    const T halley = newton / larger(fused(T(0.5) * newton, r.curvature / r.slope, T(1.0)), T(0.5));
+    const T next = unknown + halley;
+    const MaskOf<T> inside = (next > low) & (next < high);
+
+    const MaskOf<T> exact = larger(r.g, -r.g) <= tolerance;
+    const T error = r.g * halley;
+    MaskOf<T> last = Lanes<T>::all_false();
+    if constexpr (Rate == RateLaw::power)
+      last = inside & invert(exact) & (larger(error, -error) <= T(0.25) * tolerance);
+    const T change = select(last, r.increment_slope * halley * fused(T(0.5), halley, T(1.0)), T(0.0));
+    result.increment = select(active, r.increment + change, result.increment);
+    result.static_stress = select(active, fused(r.static_slope, change, r.static_stress), result.static_stress);
+    result.x = select(active, select(last, next, unknown), result.x);
+    active = active & invert(exact | last);
+    unknown = select(inside, next, T(0.5) * (low + high));
   }
   result.increment = larger(result.increment, T(0.0));
+  if constexpr (Softening) result.temperature = temperature_after(f, result.increment);
   return result;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Stage integrate: explicit central differences written so that displacement and velocity are both known at t_n.
-//   v_{n+1/2} = v_n + dt/2 a_n,   u_{n+1} = u_n + dt v_{n+1/2},   v_{n+1} = v_{n+1/2} + dt/2 a_{n+1},   a = (fe - f) /
-//   m
+//   v_{n+1/2} = v_n + dt/2 a_n,   u_{n+1} = u_n + dt v_{n+1/2},   v_{n+1} = v_{n+1/2} + dt/2 a_{n+1}
+//   a = (fe - f) / m
 // Algebraically the leapfrog with velocities at half steps: v_{n+1/2} = v_{n-1/2} + a_n (dt_{n-1/2} + dt_{n+1/2}) / 2.
 // Source: Belytschko, Liu, Moran, Nonlinear Finite Elements for Continua and Structures, sec. 6.2. Stable while
 // dt <= 2 / omega_max. The force is held over the step, so its impulse is dt fe, exactly.
@@ -23,11 +23,11 @@ constexpr Vec3 by_component(const Vec3& a, const Vec3& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
-/// Half a step of work and impulse at node i with the present velocity.
-inline HalfStepSums half_step_books(const NodalState& s, std::size_t i, double half_dt) {
+/// Impulse of half a step at node i, received and from its supports.
+inline HalfStepSums half_step_impulse(const NodalState& s, std::size_t i, double half_dt) {
   const Vec3& free = s.inverse_mass[i];
   const Vec3 held = s.internal[i] - s.external[i];  // what a support must carry
-  return {half_dt * dot(s.external[i], s.v[i]),
+  return {0.0,
           half_dt * s.external[i],
           {free.x == 0.0 ? half_dt * held.x : 0.0, free.y == 0.0 ? half_dt * held.y : 0.0,
            free.z == 0.0 ? half_dt * held.z : 0.0}};
@@ -42,9 +42,11 @@ inline HalfStepSums kick_and_drift(NodalState& s, double dt, int threads) {
   return ordered_sum<HalfStepSums>(s.u.size(), threads, [&](std::size_t begin, std::size_t end) {
     HalfStepSums sums;
     for (std::size_t i = begin; i < end; ++i) {
-      sums += half_step_books(s, i, 0.5 * dt);
+      sums += half_step_impulse(s, i, 0.5 * dt);
       kick(s, i, 0.5 * dt);
-      s.u[i] += dt * s.v[i];
+      const Vec3 move = dt * s.v[i];
+      s.u[i] += move;
+      sums.work += dot(s.external[i], move);
     }
     return sums;
   });
@@ -58,7 +60,7 @@ HalfStepSums kick_with(NodalState& s, double dt, int threads, const Force& force
     for (std::size_t i = begin; i < end; ++i) {
       s.internal[i] = force_at(i);
       kick(s, i, 0.5 * dt);
-      sums += half_step_books(s, i, 0.5 * dt);
+      sums += half_step_impulse(s, i, 0.5 * dt);
     }
     return sums;
   });
