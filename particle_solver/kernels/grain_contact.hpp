@@ -104,7 +104,8 @@ inline GrainContact<Real> grain_contact(const GrainLaw& law, const GrainPairInpu
   const Real distance = root(dot(in.separation, in.separation));
   const Real inverse = 1.0 / larger(distance, zero + 1e-150);  // two centres in one point: no direction, no force
   const Triple<Real> normal = {in.separation.x * inverse, in.separation.y * inverse, in.separation.z * inverse};
-  GrainContact<Real> out{};
+  GrainContact<Real> out;
+  out.spring = {zero, zero, zero}, out.friction_loss = zero, out.damping_loss = zero;
   out.overlap = larger(in.reach - distance, zero);
   const Real spring_force = k * out.overlap;
   out.elastic = 0.5 * spring_force * out.overlap;

@@ -11,13 +11,12 @@ namespace {
 template <class Visit>
 void for_each_spring(const GrainBlock& block, Visit&& visit) {
   for (const PairList* list : {&block.inner, &block.rim})
-    for (std::size_t g = 0; g < list->stretched.size(); ++g)
-      for (std::size_t slot = 4 * g; slot < 4 * g + 4; ++slot) {
-        if (!(list->stretched[g] >> (slot - 4 * g) & 1)) continue;
-        const GrainPair pair = list->pairs[slot];
-        const Vec3 spring{list->springs[slot].x, list->springs[slot].y, list->springs[slot].z};
-        if (pair.i < pair.j && squared_norm(spring) > 0.0) visit(pair.i, pair.j, spring);
-      }
+    for (const GrainRecord& record : list->springs) {
+      if (record.w < 0.0) break;
+      const GrainPair pair = list->pairs[static_cast<std::size_t>(record.w)];
+      const Vec3 spring{record.x, record.y, record.z};
+      if (pair.i < pair.j && squared_norm(spring) > 0.0) visit(pair.i, pair.j, spring);
+    }
 }
 
 }  // namespace
@@ -59,6 +58,7 @@ void GrainHistory::collect(std::span<const GrainSpring> springs, std::span<const
 }
 
 void GrainHistory::apply(PairList& list, std::span<const std::uint32_t> old_index, bool mark) {
+  list.springs.clear();
   for (std::size_t p = 0; p < list.count; ++p) {
     const GrainPair pair = list.pairs[p];
     const std::uint32_t a = old_index[pair.i], b = old_index[pair.j];
@@ -68,13 +68,14 @@ void GrainHistory::apply(PairList& list, std::span<const std::uint32_t> old_inde
       Entry& entry = entries_[e];
       if (entry.other != high) continue;
       const Vec3 spring = a < b ? entry.spring : -entry.spring;
-      list.springs[p] = {spring.x, spring.y, spring.z, 0.0};
+      list.springs.push_back({spring.x, spring.y, spring.z, static_cast<double>(p)});
       list.stretched[p / 4] = static_cast<std::uint8_t>(list.stretched[p / 4] | 1u << p % 4);
       // A rim pair is listed from both sides; one of them marks, so that threads do not write the same flag.
       if (mark || pair.i < pair.j) entry.found = true;
       break;
     }
   }
+  list.springs.push_back(no_spring);
 }
 
 void GrainHistory::apply(std::vector<GrainBlock>& blocks, std::span<const std::uint32_t> old_index, int threads) {

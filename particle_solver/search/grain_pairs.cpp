@@ -179,7 +179,7 @@ void fill_up(PairList& list, std::uint32_t begin, std::uint32_t far_away, bool s
   do list.pairs.push_back({begin, far_away});
   while (list.pairs.size() % 4 != 0);
   if (!springs) return;
-  list.springs.assign(list.pairs.size(), {});
+  list.springs.assign(1, no_spring);
   list.stretched.assign(list.groups(), 0);
 }
 

@@ -12,8 +12,8 @@
 // work.
 //
 // DATA LAYOUT: pairs in groups of four (one SIMD pack). At least one slot at the end is filled with the pair (begin,
-// far away), which never touches. With friction each slot has a spring, and each group a bit per slot: 0 = the spring
-// is zero.
+// far away), which never touches. With friction the pairs that touch have a spring: kept apart, in the order of their
+// slots, since only one listed pair in three touches; each group has a bit per slot, 0 = no spring.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -28,11 +28,14 @@ struct GrainPair {
   std::uint32_t i = 0, j = 0;  // sorted indices
 };
 
+/// Ends a list of springs; without friction the list has not even this.
+inline constexpr GrainRecord no_spring{0.0, 0.0, 0.0, -1.0};
+
 struct PairList {
   std::vector<GrainPair> pairs;         // a multiple of four, more than `count`
   std::size_t count = 0;                // without the filling
-  std::vector<GrainRecord> springs;     // m, tangential, of i against j; empty without friction
-  std::vector<std::uint8_t> stretched;  // a bit per slot; empty without friction
+  std::vector<GrainRecord> springs;     // m, tangential, of i against j; w is the slot; ends with no_spring
+  std::vector<std::uint8_t> stretched;  // a bit per slot
   std::size_t groups() const { return pairs.size() / 4; }
 };
 

@@ -135,7 +135,7 @@ void SandPairs::Impl::adapt_skin() {
     skin = options.skin * diameter;
   else if (books.list_builds == 0)
     skin = first_skin * diameter;
-  else if (calls_since_list < 8)
+  else if (calls_since_list < 10)
     skin = std::min(1.25 * skin, thickest_skin * diameter);
   else if (calls_since_list > 30)
     skin = std::max(skin / 1.15, thinnest_skin * diameter);
@@ -155,6 +155,7 @@ void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at
   moves.swap(old_moves);
   grains.assign(count + 1, far_away), moves.assign(count + 1, {});
   id.resize(count), old_index.resize(count), list_position.resize(count);
+#pragma omp parallel for schedule(static) num_threads(options.threads)
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t s = cells.order()[i];
     id[i] = sand.id[s], old_index[i] = old_place[id[i]], list_position[i] = at[s];

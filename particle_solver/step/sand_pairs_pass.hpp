@@ -2,6 +2,7 @@
 // The inner loop of sand_pairs: the law of grain_contact.hpp over the pair lists of one block, four pairs at a time.
 // What a scene does not have (friction, damping, different radii, periodic box) is compiled out.
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "particle_solver/kernels/grain_contact.hpp"
@@ -40,7 +41,10 @@ struct PassSums {
 struct PassScratch {
   std::vector<GrainRecord> force;   // N on the block's grains; w counts contacts
   std::vector<std::uint32_t> hits;  // slots of a list that need the law
+  std::vector<GrainRecord> springs;
 };
+
+inline constexpr std::size_t fetch_ahead = 8;  // groups
 
 using FourPairs = std::array<GrainPair, 4>;
 
@@ -77,6 +81,10 @@ std::size_t select_hits(const PassInput& in, PairList& list, std::vector<std::ui
   if (hits.size() < list.pairs.size() + 4) hits.resize(list.pairs.size() + 4);
   std::size_t found = 0;
   for (std::size_t g = 0; g < list.groups(); ++g) {
+    if (4 * (g + fetch_ahead) <
+        list.pairs.size())  // the partners of later pairs are all over the block: ask for them early
+      for (std::size_t lane = 0; lane < 4; ++lane)
+        __builtin_prefetch(&in.grains[list.pairs[4 * (g + fetch_ahead) + lane].j]);
     GrainPairInput<Lanes> pair;
     Triple<Lanes> image;
     pair_distance<Radii, Periodic>(in, &list.pairs[4 * g], pair, image);
@@ -114,42 +122,92 @@ inline void scatter(const Triple<Lanes>& force, Lanes touching, const FourPairs&
   if (used > 3) one(d, pairs[3]);
 }
 
+/// Reads the springs of a list and writes the new ones, both in the order of slots.
+class SpringStream {
+ public:
+  SpringStream(PairList& list, std::vector<GrainRecord>& scratch, std::size_t hits) : list_(list), fresh_(scratch) {
+    if (fresh_.size() < hits + 4) fresh_.resize(hits + 4);
+  }
+  /// The springs of four slots; zero for a pair that had none.
+  Triple<Lanes> read(const std::uint32_t* slots) {
+    const auto next = [&](std::uint32_t slot) {
+      const GrainRecord& record = list_.springs[read_];
+      const bool has = record.w == static_cast<double>(slot);
+      read_ += has;
+      return has ? load(record) : Lanes{};
+    };
+    Triple<Lanes> s;
+    s.x = next(slots[0]), s.y = next(slots[1]), s.z = next(slots[2]);
+    Lanes slot = next(slots[3]);
+    transpose(s.x, s.y, s.z, slot);
+    return s;
+  }
+  /// Keeps the springs of the pairs that touch.
+  void write(const Triple<Lanes>& s, const std::uint32_t* slots, unsigned touching) {
+    Lanes a = s.x, b = s.y, c = s.z;
+    Lanes d{double(slots[0]), double(slots[1]), double(slots[2]), double(slots[3])};
+    transpose(a, b, c, d);
+    const auto keep = [&](Lanes record, unsigned lane) {
+      store(fresh_[written_], record);
+      written_ += touching >> lane & 1u;
+    };
+    keep(a, 0), keep(b, 1), keep(c, 2), keep(d, 3);
+  }
+  ~SpringStream() {
+    fresh_[written_] = no_spring;
+    list_.springs.swap(fresh_);
+  }
+  SpringStream(const SpringStream&) = delete;
+  SpringStream& operator=(const SpringStream&) = delete;
+
+ private:
+  PairList& list_;
+  std::vector<GrainRecord>& fresh_;
+  std::size_t read_ = 0, written_ = 0;
+};
+
+/// Stands for SpringStream where there are none.
+struct NoSprings {
+  NoSprings(PairList&, std::vector<GrainRecord>&, std::size_t) {}
+};
+
+/// Displacements of four pairs against each other, and their dashpots.
+template <bool Damping, bool Radii, bool Periodic>
+inline void pair_motion(const PassInput& in, const GrainPair* pairs, const Triple<Lanes>& image,
+                        GrainPairInput<Lanes>& pair) {
+  Triple<Lanes>& s = pair.slip;
+  Lanes inverse_masses;
+  pair_difference<Radii>(in.moves, pairs, s, inverse_masses);
+  if constexpr (Periodic)
+    s = {s.x - image.x * in.box_change.x, s.y - image.y * in.box_change.y, s.z - image.z * in.box_change.z};
+  if constexpr (Damping)
+    pair.dashpot_per_step = Radii ? dashpot_over_step(in.law, inverse_masses, in.dt) : all_lanes(in.dashpot_per_step);
+}
+
 template <bool Friction, bool Damping, bool Radii, bool Periodic, bool Rim>
 PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, PassScratch& scratch) {
   const Lanes zero{};
   Lanes elastic{}, friction_loss{}, damping_loss{}, largest{}, virial_x{}, virial_y{}, virial_z{};
   const std::size_t hits = select_hits<Friction, Radii, Periodic>(in, list, scratch.hits);
+  std::conditional_t<Friction, SpringStream, NoSprings> springs(list, scratch.springs, hits);
   for (std::size_t h = 0; h < hits; h += 4) {
     const std::uint32_t* slots = &scratch.hits[h];
+    if constexpr (Friction || Damping)
+      if (h + 4 * fetch_ahead + 4 <= hits)
+        for (std::size_t lane = 0; lane < 4; ++lane)
+          __builtin_prefetch(&in.moves[list.pairs[slots[4 * fetch_ahead + lane]].j]);
     const FourPairs pairs{list.pairs[slots[0]], list.pairs[slots[1]], list.pairs[slots[2]], list.pairs[slots[3]]};
     GrainPairInput<Lanes> pair;
     Triple<Lanes> image{};
     pair_distance<Radii, Periodic>(in, pairs.data(), pair, image);
     if constexpr (Periodic)
       for (std::size_t lane = hits - h; lane < 4; ++lane) pair.reach[lane] = 0.0;  // the filling
-    if constexpr (Friction || Damping) {
-      Triple<Lanes>& s = pair.slip;
-      Lanes inverse_masses;
-      pair_difference<Radii>(in.moves, pairs.data(), s, inverse_masses);
-      if constexpr (Periodic)
-        s = {s.x - image.x * in.box_change.x, s.y - image.y * in.box_change.y, s.z - image.z * in.box_change.z};
-      if constexpr (Damping)
-        pair.dashpot_per_step =
-            Radii ? dashpot_over_step(in.law, inverse_masses, in.dt) : all_lanes(in.dashpot_per_step);
-    }
-    if constexpr (Friction) {
-      Lanes empty = load(list.springs[slots[3]]);
-      pair.spring = {load(list.springs[slots[0]]), load(list.springs[slots[1]]), load(list.springs[slots[2]])};
-      transpose(pair.spring.x, pair.spring.y, pair.spring.z, empty);
-    }
+    if constexpr (Friction || Damping) pair_motion<Damping, Radii, Periodic>(in, pairs.data(), image, pair);
+    if constexpr (Friction) pair.spring = springs.read(slots);
     const GrainContact<Lanes> contact = grain_contact<Friction, Damping>(in.law, pair);
-    if constexpr (Friction) {
-      Lanes a = contact.spring.x, b = contact.spring.y, c = contact.spring.z, d{};
-      transpose(a, b, c, d);
-      store(list.springs[slots[0]], a), store(list.springs[slots[1]], b);
-      store(list.springs[slots[2]], c), store(list.springs[slots[3]], d);
-      friction_loss += contact.friction_loss;
-    }
+    const auto touching = contact.overlap > zero;
+    if constexpr (Friction) springs.write(contact.spring, slots, lane_bits(touching));
+    if constexpr (Friction) friction_loss += contact.friction_loss;
     if constexpr (Damping) damping_loss += contact.damping_loss;
     if constexpr (Periodic) {
       const Triple<Lanes>& d = pair.separation;
@@ -157,8 +215,7 @@ PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, Pass
     }
     elastic += contact.elastic;
     largest = larger(largest, contact.overlap);
-    const Lanes touching = choose(contact.overlap > zero, zero + 1.0, zero);
-    scatter<Rim>(contact.force, touching, pairs, hits - h, begin, scratch.force.data());
+    scatter<Rim>(contact.force, choose(touching, zero + 1.0, zero), pairs, hits - h, begin, scratch.force.data());
   }
   PassSums sums{lane_sum(elastic), lane_sum(friction_loss), lane_sum(damping_loss), lane_largest(largest), {}, {}};
   if constexpr (Periodic) sums.virial = {lane_sum(virial_x), lane_sum(virial_y), lane_sum(virial_z)};
