@@ -1,4 +1,6 @@
 // standoff-broker: the window clock and referee between a load side and a structure.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -33,12 +35,23 @@ WindowRule parse_window(const std::string& text) {
   throw CLI::ValidationError("--window", "\"" + text + "\" is not step, auto or a positive number of seconds");
 }
 
+CLI::Validator seconds_check(bool zero_too) {
+  return {[zero_too](std::string& text) -> std::string {
+            double value = -1.0;
+            const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+            if (number && (value > 0.0 || (zero_too && value == 0.0))) return {};
+            return "\"" + text + "\" is not a positive number of seconds" + (zero_too ? " or 0" : "");
+          },
+          ""};
+}
+
 void declare(CLI::App& app, CommandLine& line) {
+  const CLI::Validator positive = seconds_check(false), not_negative = seconds_check(true);
   Deadlines& limit = line.broker.rules.deadlines;
   app.add_option("--listen", line.broker.listen, "ipc:///folder/name or tcp://127.0.0.1:port")->required();
   app.add_option("--token", line.broker.rules.token, "run token, hexadecimal; participants must give the same")
       ->required();
-  app.add_option("--until", line.broker.rules.until, "end of the windows, s")->required()->check(CLI::PositiveNumber);
+  app.add_option("--until", line.broker.rules.until, "end of the windows, s")->required()->check(positive);
   app.add_option("--scheme", line.scheme, "parallel | serial")
       ->check(CLI::IsMember({"parallel", "serial"}))
       ->capture_default_str();
@@ -47,14 +60,12 @@ void declare(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->expected(2)
       ->capture_default_str();
-  app.add_option("--join-deadline", limit.join, "s to wait for participants")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app.add_option("--join-deadline", limit.join, "s to wait for participants")->check(positive)->capture_default_str();
   app.add_option("--beat-deadline", limit.beat, "s of silence after which a participant is lost")
-      ->check(CLI::PositiveNumber)
+      ->check(positive)
       ->capture_default_str();
   app.add_option("--progress-deadline", limit.progress, "s a solver may stand still; 0: for ever")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative)
       ->capture_default_str();
   app.add_flag("--insecure", line.broker.insecure, "allow an address other machines can reach, unencrypted");
 }

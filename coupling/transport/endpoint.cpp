@@ -21,6 +21,13 @@ bool is_loopback(const std::string& address) {
   return (numbers && host.starts_with("127.")) || host == "localhost" || host == "[::1]";
 }
 
+/// libzmq takes a port beyond 65535 modulo 65536.
+bool is_port(const std::string& text) {
+  if (text == "*") return true;
+  return !text.empty() && text.size() <= 5 && text.find_first_not_of("0123456789") == std::string::npos &&
+         std::stoi(text) >= 1 && std::stoi(text) <= 65535;
+}
+
 bool same_file(int file, const std::string& path) {
   struct stat opened {
   }, named{};
@@ -46,9 +53,10 @@ Endpoint parse_endpoint(const std::string& text, bool insecure) {
                              text, endpoint.path.size(), longest));
     return endpoint;
   }
-  if (!text.starts_with("tcp://") || text.rfind(':') < 7)
+  if (!text.starts_with("tcp://") || text.rfind(':') < 7 || !is_port(text.substr(text.rfind(':') + 1)))
     throw Stop(ExitCode::bad_case,
-               fmt::format("endpoint \"{}\": expected ipc:///folder/name or tcp://127.0.0.1:port", text));
+               fmt::format("endpoint \"{}\": expected ipc:///folder/name or tcp://127.0.0.1:port, port 1 .. 65535 or *",
+                           text));
   endpoint.loopback = is_loopback(text.substr(6));
   if (!endpoint.loopback && !insecure)
     throw Stop(ExitCode::bad_case,

@@ -75,19 +75,19 @@ TEST_F(Death, SolverBusyForLongWhenItsPartnerDies_ItsProcessEnds) {
 }
 
 TEST_F(Death, ParticlesFrozen_FoundByTheirSilence) {
-  run.broker.rules.deadlines.beat = 0.8;
+  run.broker.rules.deadlines.beat = 1.5;
   run.broker.rules.deadlines.beat_interval = 0.1;
   start_all();
   particles->signal(SIGSTOP);
-  expect_all_gone(4, "no sign of life for 0.8 s: particles", {"broker", "structure"});
+  expect_all_gone(4, "no sign of life for 1.5 s: particles", {"broker", "structure"});
 }
 
 TEST_F(Death, BrokerFrozen_FoundByItsSilence) {
-  run.broker.rules.deadlines.beat = 0.8;
+  run.broker.rules.deadlines.beat = 1.5;
   run.broker.rules.deadlines.beat_interval = 0.1;
   start_all();
   broker->signal(SIGSTOP);
-  expect_all_gone(4, "first cause: broker: no sign of life for 0.8 s", {"particles", "structure"});
+  expect_all_gone(4, "first cause: broker: no sign of life for 1.5 s", {"particles", "structure"});
 }
 
 TEST_F(Death, SolverStuckWhileItsProcessLives_FoundByItsProgress) {
