@@ -1,9 +1,10 @@
 #pragma once
-// The particles of a scene as arrays, one struct a medium. No physics. Order in the arrays may change (sorting, removal);
-// `id` stays with its particle and is what random numbers and ties are keyed by.
+// The particles of a scene as arrays, one struct a medium. No physics. Order in the arrays may change (sorting,
+// removal); `id` stays with its particle and is what random numbers and ties are keyed by.
 //
-// Inside a gas sub-step of length h a collision at time t in [0, h] changes a velocity and shifts the *starting point* back,
-// x -= (v_new - v_old) t, so that x + v h is where the particle ends; gas_drift then does x += v h for everything.
+// Inside a gas sub-step of length h a collision at time t in [0, h] changes a velocity and shifts the *starting point*
+// back, x -= (v_new - v_old) t, so that x + v h is where the particle ends; gas_drift then does x += v h for
+// everything.
 #include <cstdint>
 #include <vector>
 
@@ -16,12 +17,14 @@ struct GasState {
   double mass = 0.0;    // kg, one particle
   double radius = 0.0;  // m
   double gamma = 1.4;   // dilute ratio of specific heats; zeta = 2/(gamma-1) - 3 internal degrees of freedom
-  std::vector<Vec3> position, velocity;  // m, m/s; an unreleased particle stands still but keeps its velocity-to-be here
-  std::vector<double> internal_energy;   // J per particle, >= 0
-  std::vector<double> release_time;      // s; empty once all are released
-  std::vector<std::uint8_t> released;    // 0/1; empty once all are released
-  std::vector<Vec3> latent_impulse;      // N s taken by an unreleased particle, given back at release; empty likewise
-  std::vector<double> plate_rebound;     // kg m/s towards the charge after the last contact with the plate; NaN before the first
+  std::vector<Vec3> position,
+      velocity;                         // m, m/s; an unreleased particle stands still but keeps its velocity-to-be here
+  std::vector<double> internal_energy;  // J per particle, >= 0
+  std::vector<double> release_time;     // s; empty once all are released
+  std::vector<std::uint8_t> released;   // 0/1; empty once all are released
+  std::vector<Vec3> latent_impulse;     // N s taken by an unreleased particle, given back at release; empty likewise
+  std::vector<double>
+      plate_rebound;  // kg m/s towards the charge after the last contact with the plate; NaN before the first
   std::vector<std::uint32_t> id;
   std::size_t size() const { return position.size(); }
   bool all_released() const { return released.empty(); }
@@ -29,28 +32,29 @@ struct GasState {
 
 /// Grains: rigid spheres without rotation. Velocity Verlet: half kick, drift (with gas hits), forces, half kick.
 struct SandState {
-  double radius = 0.0, mass = 0.0;      // of every grain, or the mean when radii differ
-  std::vector<double> grain_radius;     // m; empty when all are equal
-  std::vector<double> grain_mass;       // kg; empty when all are equal
-  std::vector<Vec3> position, velocity; // m, m/s
-  std::vector<Vec3> force;              // N, contact forces at `position`
-  std::vector<double> plate_rebound;    // as in GasState
+  double radius = 0.0, mass = 0.0;       // of every grain, or the mean when radii differ
+  std::vector<double> grain_radius;      // m; empty when all are equal
+  std::vector<double> grain_mass;        // kg; empty when all are equal
+  std::vector<Vec3> position, velocity;  // m, m/s
+  std::vector<Vec3> force;               // N, contact forces at `position`
+  std::vector<double> plate_rebound;     // as in GasState
   std::vector<std::uint32_t> id;
   std::size_t size() const { return position.size(); }
   double radius_of(std::size_t i) const { return grain_radius.empty() ? radius : grain_radius[i]; }
   double mass_of(std::size_t i) const { return grain_mass.empty() ? mass : grain_mass[i]; }
 };
 
-/// Mirror planes of a quarter model, x = 0 and y = 0: a sphere touches its own image when its centre is one radius away.
+/// Mirror planes of a quarter model, x = 0 and y = 0: a sphere touches its own image when its centre is one radius
+/// away.
 struct MirrorPlanes {
   bool on = false;
 };
 
 /// Impulse and energy booked outside the particles, simulated part only; see ledger/.
 struct BoundaryBooks {
-  Vec3 mirror_impulse;     // N s given to the mirror planes
-  Vec3 surround_impulse;   // N s given to the rigid cover around the plate
-  Vec3 escaped_momentum;   // kg m/s carried away
+  Vec3 mirror_impulse;          // N s given to the mirror planes
+  Vec3 surround_impulse;        // N s given to the rigid cover around the plate
+  Vec3 escaped_momentum;        // kg m/s carried away
   double escaped_energy = 0.0;  // J, kinetic + internal
 };
 
