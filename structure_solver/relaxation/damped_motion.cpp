@@ -12,6 +12,10 @@
 namespace standoff::structure {
 namespace {
 
+constexpr double periods_to_review = 4.0;  // a critically damped mode has lost all but e^-25 by then
+constexpr int most_reviews = 3;
+constexpr double little_energy = 1e-4;  // of the peak: nothing swings that could still flow
+
 double largest(std::span<const double> values) {
   double result = 0.0;
   for (const double value : values) result = std::max(result, std::abs(value));
@@ -37,7 +41,9 @@ DampedMotion::DampedMotion(RelaxationProblem& problem, const RelaxationOptions& 
       mass_(problem.mass().begin(), problem.mass().end()),
       alpha_(options.damping_factor * 2.0 * omega_1),
       period_(2.0 * std::numbers::pi / omega_1),
-      monitor_(limits_of(options), period_, options.peak_kinetic_energy) {
+      monitor_(limits_of(options), period_, options.peak_kinetic_energy),
+      tolerance_(options.relative_tolerance),
+      next_review_(periods_to_review * period_) {
   problem_.get_state(u_, v_);
   length_ = std::max({largest(u_), largest(v_) / omega_1, 1e-12});
   plastic_at_start_ = plastic_at_booking_ = problem_.plastic_work();
@@ -76,7 +82,6 @@ double DampedMotion::residual() {
 void DampedMotion::accept(double time, std::span<const double> u, std::span<const double> v) {
   const double dt = time - time_;
   problem_.commit(u, dt);
-  problem_.set_state(u, v);
   std::copy(u.begin(), u.end(), u_.begin());
   std::copy(v.begin(), v.end(), v_.begin());
   time_ = time;
@@ -94,12 +99,16 @@ void DampedMotion::accept_static(std::span<const double> u) {
   std::copy(u.begin(), u.end(), u_.begin());
   std::fill(v_.begin(), v_.end(), 0.0);
   damping_power_ = 0.0;
+  publish();
+}
+
+void DampedMotion::publish() {
   problem_.set_state(u_, v_);
 }
 
 /// Nothing drives the structure, so what it holds plus what it lost cannot exceed what it started with.
 void DampedMotion::check_energy() {
-  next_energy_check_ = time_ + period_ / 256.0;
+  next_energy_check_ = time_ + period_ / 32.0;
   const double gained = mechanical_energy() + plastic_work_gained() + damping_integral_ - energy_at_start_;
   const double allowed = energy_allowance_ * std::max(options_.peak_kinetic_energy, std::abs(energy_at_start_));
   if (!(gained <= allowed + 1e-12))
@@ -113,23 +122,33 @@ void DampedMotion::check_energy() {
 }
 
 bool DampedMotion::finished() {
-  if (settled_ || time_ >= options_.time_cap) return true;
-  if (!monitor_.quiet()) {
-    quiet_since_ = -1.0;
-    return false;
+  if (settled_ || review_due_ || time_ >= options_.time_cap) return true;
+  if (!monitor_.still()) {
+    still_since_ = -1.0;
+    review_due_ = reviews_ < most_reviews && time_ >= next_review_ && monitor_.kinetic_ratio() < little_energy;
+    return review_due_;
   }
-  if (quiet_since_ < 0.0) quiet_since_ = time_;
+  if (still_since_ < 0.0) still_since_ = time_;
   if (time_ < next_residual_check_) return false;
   next_residual_check_ = time_ + period_ / 16.0;
-  // A stiff mode at the level of the tolerance can hold the residual up; the static solve takes that out.
-  settled_ = residual() < options_.rest_residual || (options_.polish && time_ - quiet_since_ > period_);
+  settled_ =
+      (monitor_.quiet() && residual() < options_.rest_residual) || (options_.polish && time_ - still_since_ > period_);
   return settled_;
 }
 
+void DampedMotion::retune(double omega_1) {
+  alpha_ = options_.damping_factor * 2.0 * omega_1;
+  period_ = 2.0 * std::numbers::pi / omega_1;
+  damping_power_ = 2.0 * alpha_ * kinetic_energy(v_);
+  ++reviews_;
+  watch_again();
+}
+
 void DampedMotion::watch_again() {
-  settled_ = false;
-  quiet_since_ = -1.0;
-  monitor_.restart();
+  settled_ = review_due_ = false;
+  still_since_ = -1.0;
+  next_review_ = time_ + periods_to_review * period_;
+  monitor_.restart(period_);
   monitor_.observe(time_, problem_.centre_deflection(u_), kinetic_energy(v_), problem_.plastic_work());
 }
 

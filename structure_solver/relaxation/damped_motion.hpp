@@ -45,9 +45,23 @@ class DampedMotion {
   /// Commits a static state, v = 0; time stands still.
   void accept_static(std::span<const double> u);
 
-  /// Rest is measured, or the cap on simulated time is reached.
+  /// Hands the last accepted displacement and velocity to the problem; a model may have to evaluate forces for that, so
+  /// it is done when the motion pauses, not every step.
+  void publish();
+
+  /// The motion has settled, its time is up, or it should be reviewed.
   bool finished();
+  /// Still enough for the static solve: kinetic energy and drift are at rest, and so are plastic work and residual, or
+  /// one more period did not bring them there. A rate-dependent metal creeps for ever at forces that a static solve
+  /// takes away at once.
   bool settled() const { return settled_; }
+  /// Four periods passed with little kinetic energy but no rest: frequency and tolerance may no longer suit. Three
+  /// times at most.
+  bool review_due() const { return review_due_; }
+  /// New damping and period for the frequency omega_1 of the present state.
+  void retune(double omega_1);
+  void tighten() { tolerance_ *= 0.1; }
+  double tolerance() const { return tolerance_; }
   /// Ask for one more period before the motion counts as settled.
   void watch_again();
   const RestMonitor& monitor() const { return monitor_; }
@@ -73,8 +87,10 @@ class DampedMotion {
   std::vector<double> u_, v_, force_, mass_;
   double alpha_, period_, length_ = 0.0, time_ = 0.0;
   RestMonitor monitor_;
-  bool settled_ = false;
-  double quiet_since_ = -1.0, next_residual_check_ = 0.0, next_energy_check_ = 0.0;
+  double tolerance_;
+  bool settled_ = false, review_due_ = false;
+  double still_since_ = -1.0, next_residual_check_ = 0.0, next_energy_check_ = 0.0, next_review_;
+  int reviews_ = 0;
   long steps_ = 0, force_calls_ = 0;
   double plastic_at_start_, plastic_at_booking_, energy_at_start_, energy_at_booking_;
   double damping_power_ = 0.0, damping_integral_ = 0.0, damping_energy_ = 0.0;

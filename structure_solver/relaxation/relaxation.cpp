@@ -34,9 +34,23 @@ LowestMode find_lowest_mode(StiffnessFactor& stiffness, std::span<const double> 
   return mode;
 }
 
-/// Damped motion until it has settled or its time is over, by whatever integrator still works.
+/// Frequency of the present state: if it is another, damping follows it; if not, noise of the integration may be what
+/// is left.
+void review(DampedMotion& motion, StiffnessFactor& stiffness, RelaxationResult& result) {
+  stiffness.replace(motion.problem().stiffness(motion.displacement()));
+  const double now = lowest_mode(stiffness, motion.velocity()).angular_frequency;
+  const double before = 2.0 * std::numbers::pi / motion.period();
+  const bool other = std::abs(now - before) > 0.2 * before;
+  if (!other) motion.tighten();
+  motion.retune(other ? now : before);
+  say(result,
+      other ? fmt::format("at {:.4g} ms damping was set to the frequency of the present state, {:.4g} Hz",
+                          motion.time() * 1e3, now / (2.0 * std::numbers::pi))
+            : fmt::format("at {:.4g} ms the tolerance was lowered to {:.1g}", motion.time() * 1e3, motion.tolerance()));
+}
+
+/// Damped motion by whatever integrator still works, until it settles, its time is over or a review is due.
 void move(DampedMotion& motion, StiffnessFactor& stiffness, bool& explicitly, RelaxationResult& result) {
-  const Stopwatch wall;
   if (!explicitly) {
     const ImplicitEnd end = run_implicit(motion, stiffness);
     result.linear_iterations += end.linear_iterations;
@@ -48,6 +62,16 @@ void move(DampedMotion& motion, StiffnessFactor& stiffness, bool& explicitly, Re
     }
   }
   if (explicitly) run_leapfrog(motion, stiffness);
+}
+
+void settle(DampedMotion& motion, StiffnessFactor& stiffness, bool& explicitly, RelaxationResult& result) {
+  const Stopwatch wall;
+  move(motion, stiffness, explicitly, result);
+  while (motion.review_due()) {
+    review(motion, stiffness, result);
+    move(motion, stiffness, explicitly, result);
+  }
+  motion.publish();
   motion.book_damping();
   result.wall_relax += wall.seconds();
 }
@@ -61,6 +85,24 @@ void static_solve(DampedMotion& motion, StiffnessFactor& stiffness, RelaxationRe
   say(result, end.message);
   motion.book_damping();
   result.wall_polish += wall.seconds();
+}
+
+/// Damped motion and static solve, again if the solve found the motion unfinished: if it failed, moved the centre by
+/// more than rest allows, or let the metal flow.
+void come_to_rest(DampedMotion& motion, StiffnessFactor& stiffness, RelaxationResult& result) {
+  const RelaxationOptions& options = motion.options();
+  bool explicitly = options.method == RelaxationMethod::explicit_leapfrog;
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    settle(motion, stiffness, explicitly, result);
+    if (!motion.settled() || !options.polish) break;
+    const double moved = result.polish_difference, flowed = motion.plastic_work_gained();
+    static_solve(motion, stiffness, result);
+    const bool small = result.polish_difference - moved < options.rest_drift;
+    const bool elastic = motion.plastic_work_gained() - flowed <= 1e-6 * motion.problem().plastic_work();
+    if (small && elastic && motion.monitor().quiet() && motion.residual() < options.rest_residual) break;
+    if (round + 1 < rounds) motion.watch_again();
+  }
 }
 
 void measure(DampedMotion& motion, const StiffnessFactor& stiffness, RelaxationResult& result) {
@@ -95,18 +137,11 @@ RelaxationResult relax_to_rest(RelaxationProblem& problem, const RelaxationOptio
   DampedMotion motion(problem, options, mode.angular_frequency);
   result.wall_relax = wall.seconds();
 
-  bool explicitly = options.method == RelaxationMethod::explicit_leapfrog;
-  constexpr int rounds = 3;
-  for (int round = 0; round < rounds; ++round) {
-    move(motion, stiffness, explicitly, result);
-    if (!motion.settled() || !options.polish) break;
-    const double before = result.polish_difference;
-    static_solve(motion, stiffness, result);
-    // A polish that failed, or moved the centre by more than rest allows, found the motion not finished: watch once
-    // more.
-    const bool small = result.polish_difference - before < options.rest_drift;
-    if (small && motion.residual() < options.rest_residual) break;
-    if (round + 1 < rounds) motion.watch_again();
+  try {
+    come_to_rest(motion, stiffness, result);
+  } catch (...) {
+    motion.publish();  // whoever reports the failure finds displacements that belong to the history
+    throw;
   }
   measure(motion, stiffness, result);
   return result;

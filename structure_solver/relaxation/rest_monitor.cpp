@@ -50,9 +50,8 @@ double RestMonitor::plastic_ratio() const {
   return plastic_ > 0.0 ? plastic_work_gained() / plastic_ : 0.0;
 }
 
-bool RestMonitor::quiet() const {
-  return covers_a_period() && kinetic_ratio() < limits_.kinetic_ratio && drift() < limits_.drift &&
-         plastic_ratio() < limits_.plastic_ratio;
+bool RestMonitor::still() const {
+  return covers_a_period() && kinetic_ratio() < limits_.kinetic_ratio && drift() < limits_.drift;
 }
 
 std::string RestMonitor::shortcomings(double residual) const {

@@ -26,16 +26,22 @@ class RestMonitor {
       : limits_(limits), period_(period), peak_kinetic_(peak_kinetic_energy) {}
 
   void observe(double time, double deflection, double kinetic_energy, double plastic_work);
-  /// Forgets the window, not the peak of the kinetic energy: rest must be shown again.
-  void restart() { bins_.clear(); }
+  /// Forgets the window, not the peak of the kinetic energy: rest must be shown again, over one `period`.
+  void restart(double period) {
+    bins_.clear();
+    period_ = period;
+  }
 
   /// The observations cover at least one period.
   bool covers_a_period() const;
+  /// Kinetic energy and drift hold.
+  bool still() const;
   /// All but the residual hold.
-  bool quiet() const;
+  bool quiet() const { return still() && plastic_ratio() < limits_.plastic_ratio; }
   double kinetic_ratio() const;        // largest of the last quarter period over the peak
   double drift() const;                // m, largest minus smallest centre deflection within the last period
   double plastic_work_gained() const;  // J, within the last period
+  double plastic_ratio() const;        // the same over all plastic work
   /// What is missing for rest, with the measured figures; empty if nothing is.
   std::string shortcomings(double residual) const;
 
@@ -45,7 +51,6 @@ class RestMonitor {
     double first_time, lowest, highest, kinetic, plastic_at_first;
   };
   static constexpr long bins_per_period = 64;
-  double plastic_ratio() const;
 
   RestLimits limits_;
   double period_, peak_kinetic_;

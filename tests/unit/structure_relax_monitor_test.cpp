@@ -67,7 +67,7 @@ TEST(RestMonitor, ForceOutOfBalance_IsNamedWithItsSize) {
 
 TEST(RestMonitor, WatchedAgain_RestMustBeShownAnew) {
   RestMonitor monitor = after(1.1 * period, {});
-  monitor.restart();
+  monitor.restart(period);
   monitor.observe(1.2 * period, 0.02, 0.0, 500.0);
   EXPECT_FALSE(monitor.quiet());
 }

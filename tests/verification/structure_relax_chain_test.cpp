@@ -42,8 +42,8 @@ RelaxationOptions reference() {
   RelaxationOptions options;
   options.method = RelaxationMethod::explicit_leapfrog;
   options.polish = false;
-  // A fifth of the stability limit (4.9 us): the stiff modes yield springs too, so their phase matters. Halving it again
-  // moves nothing by more than a tenth of the tolerance.
+  // A fifth of the stability limit (4.9 us): the stiff modes yield springs too, so their phase matters. Halving it
+  // again moves nothing by more than a tenth of the tolerance.
   options.explicit_step = 1e-6;
   return options;
 }

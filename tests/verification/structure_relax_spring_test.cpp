@@ -106,5 +106,35 @@ TEST(RelaxedSpringEnergy, ThrownFromTheYieldPoint_LedgerCloses) {
   EXPECT_NEAR(result.damping_integral, result.damping_energy, 0.02 * result.damping_energy) << "J";
 }
 
+// A load P above the static yield force Y creeps: p' = (P - Y - H p) / viscosity, 2e-8 m within a period, below any
+// limit on drift, and yet the rest state is H p = P - Y, u = P / k + p, a millimetre away. Tolerance: 1e-3 N over k and
+// over H.
+TEST(RelaxedSpringCreep, LoadedAboveStaticYield_RestsWhereTheCreepWouldEnd) {
+  const double hardening = 1e6, load = yield + 1e3;
+  test::SpringChain c({m}, {test::Spring{k, yield, hardening, 0.0, 1e8}});
+  c.load = load;
+  c.u[0] = load / k + 1e-5;
+  c.work = 1.0;
+  const RelaxationResult result = relax(c);
+  EXPECT_TRUE(result.at_rest) << result.message;
+  EXPECT_NEAR(c.u[0], load / k + (load - yield) / hardening, 1e-3 / k + 1e-3 / hardening) << "m; " << result.message;
+  EXPECT_NEAR(result.polish_difference, 1e-3, 2e-5) << "m, the creep that was left";
+}
+
+// A cubic spring swings stiffly far out and softly near rest: damped for the start, the soft motion decays with omega^2
+// / alpha = 0.9 per second. The review must find the softer frequency.
+TEST(RelaxedSpringReview, SofterAtRestThanAtTheStart_DampingFollowsAndRestIsReached) {
+  test::SpringChain c({m}, {test::Spring{1e5, 1e300, 0.0, 1e13}});
+  c.u[0] = 0.01;  // 3e9 against 1e5 N/m
+  RelaxationOptions options;
+  options.peak_kinetic_energy = 1e4;
+  options.time_cap = 0.3;  // 15 periods at rest; with the first damping it would take ten seconds
+  const RelaxationResult result = relax_to_rest(c, options);
+  EXPECT_NE(result.message.find("damping was set to the frequency of the present state"), std::string::npos)
+      << result.message;
+  EXPECT_TRUE(result.at_rest) << result.message;
+  EXPECT_NEAR(c.u[0], 0.0, 1e-3 / 1e5) << "m";
+}
+
 }  // namespace
 }  // namespace standoff::structure
