@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 namespace standoff::particles {
 
@@ -48,8 +47,7 @@ class Candidates {
   /// To be called once all are added.
   void close() {
     if (count_ == 0) return;
-    for (std::size_t k = count_; k < count_ + padding; ++k)
-      records_[k] = {infinity, 0.0, 0.0, 0.0};  // no distance to it is small
+    for (std::size_t k = count_; k < count_ + padding; ++k) records_[k] = {};
     for (std::size_t k = 0; k < count_ + 3; k += 4) {
       Lanes x = load(records_[k]), y = load(records_[k + 1]), z = load(records_[k + 2]), radius = load(records_[k + 3]);
       transpose(x, y, z, radius);
@@ -73,14 +71,15 @@ class Candidates {
       Lanes reach = all_lanes(options.cutoff);
       if constexpr (Radii) reach = load_anywhere(&radius_[k]) + (self.w + options.skin);
       const auto near = dx * dx + dy * dy + dz * dz < reach * reach;
-      found += append_chosen(lane_bits(near), &index_[k], &found_[found]);
+      unsigned bits = lane_bits(near);
+      if (k + 4 > count_) bits &= (1u << (count_ - k)) - 1u;  // the filling
+      found += append_chosen(bits, &index_[k], &found_[found]);
     }
     for (std::size_t k = 0; k < found; ++k) list.pairs.push_back({i, found_[k]});
   }
 
  private:
   static constexpr std::size_t padding = 8;  // a read of four may start at the last one; transposed by fours
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   std::size_t count_ = 0;
   std::vector<GrainRecord> records_;
   std::vector<double> x_, y_, z_, radius_;

@@ -255,6 +255,10 @@ const SandBooks& SandPairs::books() const {
   return impl_->books;
 }
 
+const GrainLaw& SandPairs::law() const {
+  return impl_->options.law;
+}
+
 double SandPairs::stable_step() const {
   const double row_sum = impl_->options.law.stiffness * std::max(1, impl_->books.most_contacts);
   return std::min(recommended_step(impl_->options.law, impl_->lightest),

@@ -70,6 +70,7 @@ class SandPairs {
   /// sees overlaps: no displacement is known yet.
   void forces(SandState& sand, double dt);
   const SandBooks& books() const;
+  const GrainLaw& law() const;
   /// Step for the present coordination [s]: recommended_step, and at most a quarter of the bound sqrt(2 m / (z k)) for
   /// the grain with most contacts (it binds above z = 12). Call after forces().
   double stable_step() const;

@@ -113,5 +113,34 @@ TEST(GrainImpact, OnAMirrorPlane_BouncesAndGivesItsMomentumToThePlane) {
   EXPECT_NEAR(pairs.books().mirror_impulse.x, mass * (-40.0 - grains.velocity[0].x), 1e-15 * mass * 40 * 300);
 }
 
+TEST(GrainImpact, OnAMirrorPlaneWithChangingSteps_MomentumOfGrainAndPlaneIsKeptInEveryStep) {
+  // Also in the middle of the contact: each force acts in one half kick before and one after it is known.
+  SandState grains = make_grains({{1.05e-3, 5e-3, 0}}, radius, mass);
+  grains.velocity = {{-40, 0, 0}};
+  SandPairs pairs({{stiffness, 0.0, 0.1}, {true}, {}, 0, 1});
+  pairs.forces(grains, 0.0);
+  for (int n = 0; n < 60; ++n) {
+    sand_step(grains, pairs, recommended_step(pairs.law(), mass) * (1.0 + 0.5 * (n % 3)));
+    EXPECT_NEAR(mass * (grains.velocity[0].x + 40.0) + pairs.books().mirror_impulse.x, 0.0, 1e-15 * mass * 40 * 300)
+        << "step " << n;
+  }
+  EXPECT_GT(grains.velocity[0].x, 20.0) << "it must have bounced";
+}
+
+TEST(GrainImpact, LoneGrainFromFarAway_IsFoundByTheOneItHits) {
+  // Nothing moves against its neighbours until the last moment: only distance tells that the list is old.
+  // In diameters; the third grain, so far behind, sets where cells begin: distances beyond cells, regions, bricks.
+  for (const auto& [behind, distance] : {std::pair{2.2, 2.5}, {0.0, 5.0}, {0.0, 12.0}, {0.0, 60.0}}) {
+    const double d = 2.0 * radius;
+    SandState grains = make_grains({{0, 0, 0}, {d * distance, 0, 0}, {-d * behind, 5e-3, 0}}, radius, mass);
+    grains.velocity[0] = {500, 0, 0};
+    SandPairs pairs({{stiffness, 0.0, 0.0}, {}, {}, 0, 1});
+    pairs.forces(grains, 0.0);
+    const double step = recommended_step(pairs.law(), mass);
+    for (double t = 0.0; t < 2.0 * radius * (distance + 3.0) / 500.0; t += step) sand_step(grains, pairs, step);
+    EXPECT_NEAR(grains.velocity[1].x, 500.0, 500.0 * 0.5 * w0_dt(step) * w0_dt(step)) << distance << " diameters";
+  }
+}
+
 }  // namespace
 }  // namespace standoff::particles
