@@ -124,5 +124,25 @@ TEST(EarlyStop, StopAskedFor_BothSidesEndAtTheSameWindow) {
   EXPECT_EQ(run.events("stopping").at(0)["windows"], 21);
 }
 
+// A job that is stopped and continued as a whole (Ctrl-Z, a sleeping laptop) has missed every beat, by nobody's fault.
+TEST(PausedRun, AllStoppedForLongerThanTheBeatDeadline_GoesOnWhenContinued) {
+  CoupledRun run;
+  run.broker.rules.deadlines.beat = 1.2;
+  run.broker.rules.deadlines.beat_interval = 0.2;
+  const auto slowly = [](std::int64_t) { std::this_thread::sleep_for(std::chrono::milliseconds(3)); };
+  Child broker = run.start_broker();
+  Child load = run.start(run.options(Role::load), [&](Participant& link) {
+    idle_load(link, [&](std::int64_t k) { slowly(k), link.progress({}); });
+  });
+  Child structure = run.start(run.options(Role::structure), [&](Participant& link) { idle_structure(link, slowly); });
+  ASSERT_TRUE(eventually(10.0, [&] { return !run.events("progress").empty(); }));
+  for (Child* child : {&broker, &load, &structure}) child->signal(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2200));
+  for (Child* child : {&broker, &load, &structure}) child->signal(SIGCONT);
+  EXPECT_EQ(load.wait(), 0) << run.errors("particles");
+  EXPECT_EQ(structure.wait(), 0) << run.errors("structure");
+  EXPECT_EQ(broker.wait(), 0) << run.errors("broker");
+}
+
 }  // namespace
 }  // namespace standoff::test
