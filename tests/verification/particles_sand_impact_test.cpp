@@ -132,7 +132,7 @@ TEST(GrainImpact, LoneGrainFromFarAway_IsFoundByTheOneItHits) {
   // In diameters; the third grain, so far behind, sets where cells begin: distances beyond cells, regions, bricks.
   for (const auto& [behind, distance] : {std::pair{2.2, 2.5}, {0.0, 5.0}, {0.0, 12.0}, {0.0, 60.0}}) {
     const double d = 2.0 * radius;
-    SandState grains = make_grains({{0, 0, 0}, {d * distance, 0, 0}, {-d * behind, 5e-3, 0}}, radius, mass);
+    SandState grains = make_grains({{0, 0, 0}, {d * distance, 0, 0}, {-d * behind, 6.0 * d, 0}}, radius, mass);
     grains.velocity[0] = {500, 0, 0};
     SandPairs pairs({{stiffness, 0.0, 0.0}, {}, {}, 0, 1});
     pairs.forces(grains, 0.0);
