@@ -123,7 +123,7 @@ ChildProcess start_child(const ChildCommand& command) {
   if (failed)
     throw Stop(ExitCode::participant_lost,
                fmt::format("cannot start {} ({}): {}", command.name, arguments[0], strerror(error)));
-  return {command.name, pid, LineReader(out.read), LineReader(err.read), true, 0, {}};
+  return {command.name, pid, LineReader(out.read), LineReader(err.read), true, 0, 0.0, {}};
 }
 
 std::string program_folder() {

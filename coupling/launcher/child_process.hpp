@@ -38,6 +38,7 @@ struct ChildProcess {
   LineReader out, err;
   bool alive = false;
   long peak_bytes = 0;                  // largest resident memory, known at its end
+  double cpu_s = 0.0;                   // processor time, likewise
   std::vector<std::string> last_lines;  // of its error output, newest last
 
   /// To the whole process group; quiet if it is gone.

@@ -1,5 +1,6 @@
 #include "coupling/launcher/cost_statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,12 +32,24 @@ std::string spread_text(const Spread& s, double factor, const char* unit) {
 }
 
 std::string error_text(const LevelError& e, const LevelError& finest) {
-  if (&e == &finest) return "finest";
   if (!std::isfinite(e.difference) || finest.own.mean == 0.0) return "-";
+  if (&e == &finest) return "finest";
   const double percent = 100.0 / std::abs(finest.own.mean);
   const std::string difference = fmt::format("{:+.1f}", e.difference * percent);
   return std::isfinite(e.standard_error) ? fmt::format("{} ± {:.1f} %", difference, e.standard_error * percent)
                                          : difference + " %";
+}
+
+const LevelCost* finest_of(const std::vector<LevelCost>& costs) {
+  const LevelCost* finest = nullptr;
+  for (const LevelCost& cost : costs)
+    if (cost.runs > 0) finest = &cost;
+  return finest;
+}
+
+/// What levels are judged by: the permanent deflection, or the peak where nothing was brought to rest.
+LevelError LevelCost::*judged(const LevelCost& finest) {
+  return finest.permanent.own.count > 0 ? &LevelCost::permanent : &LevelCost::peak;
 }
 
 std::string field(double value) {
@@ -88,9 +101,7 @@ std::vector<LevelCost> level_costs(const std::vector<CostRun>& runs, const std::
     cost.seconds = spread_over(runs, level, &CostRun::seconds);
     if (cost.runs + cost.failed > 0) costs.push_back(cost);
   }
-  const LevelCost* finest = nullptr;
-  for (const LevelCost& cost : costs)
-    if (cost.runs > 0) finest = &cost;
+  const LevelCost* finest = finest_of(costs);
   if (finest == nullptr) return costs;
   for (LevelCost& cost : costs) {
     compare(cost.permanent, finest->permanent);
@@ -104,15 +115,14 @@ std::vector<LevelCost> level_costs(const std::vector<CostRun>& runs, const std::
 std::string level_for_error(const std::vector<LevelCost>& costs, double wanted) {
   std::string best;
   double best_seconds = std::numeric_limits<double>::infinity();
-  int compared = 0;
-  for (const LevelCost& cost : costs) compared += cost.runs > 0 ? 1 : 0;
-  if (compared < 2) return "";
-  const LevelCost* finest = nullptr;
-  for (const LevelCost& cost : costs)
-    if (cost.runs > 0) finest = &cost;
+  const LevelCost* finest = finest_of(costs);
+  if (finest == nullptr || std::count_if(costs.begin(), costs.end(), [](const LevelCost& c) { return c.runs > 0; }) < 2)
+    return "";
+  LevelError LevelCost::*const quantity = judged(*finest);
+  const double limit = wanted * std::abs((finest->*quantity).own.mean);
   for (const LevelCost& cost : costs) {
-    const double reach = std::abs(cost.permanent.difference) + 2.0 * cost.permanent.standard_error;
-    if (reach <= wanted * std::abs(finest->permanent.own.mean) && cost.seconds.mean < best_seconds)
+    const LevelError& error = cost.*quantity;
+    if (std::abs(error.difference) + 2.0 * error.standard_error <= limit && cost.seconds.mean < best_seconds)
       best = cost.level, best_seconds = cost.seconds.mean;
   }
   return best;
@@ -121,9 +131,7 @@ std::string level_for_error(const std::vector<LevelCost>& costs, double wanted) 
 std::string cost_table(const std::vector<LevelCost>& costs) {
   std::vector<std::vector<std::string>> rows{{"level", "runs", "permanent mm", "error", "profile max mm", "peak mm",
                                               "error", "impulse N s", "error", "seconds"}};
-  const LevelCost* finest = nullptr;
-  for (const LevelCost& c : costs)
-    if (c.runs > 0) finest = &c;
+  const LevelCost* finest = finest_of(costs);
   for (const LevelCost& c : costs) {
     const std::string runs = c.failed > 0 ? fmt::format("{} ({} failed)", c.runs, c.failed) : std::to_string(c.runs);
     if (c.runs == 0) {
@@ -139,8 +147,9 @@ std::string cost_table(const std::vector<LevelCost>& costs) {
   text += "\n  mean ± spread over seeds; error against the finest level that was run ± its standard error\n";
   for (const double wanted : {0.1, 0.05, 0.02}) {
     const std::string level = level_for_error(costs, wanted);
-    text += fmt::format("  permanent deflection within {:.0f} % of the finest (two standard errors): {}\n",
-                        100.0 * wanted, level.empty() ? "not shown by these runs" : "level " + level);
+    text += fmt::format("  {} deflection within {:.0f} % of the finest (two standard errors): {}\n",
+                        finest != nullptr && judged(*finest) == &LevelCost::peak ? "peak" : "permanent", 100.0 * wanted,
+                        level.empty() ? "not shown by these runs" : "level " + level);
   }
   return text;
 }

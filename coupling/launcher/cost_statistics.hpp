@@ -47,8 +47,8 @@ struct LevelCost {
 /// One entry for each of `levels` that has runs, in that order; the last with a successful run is the finest.
 std::vector<LevelCost> level_costs(const std::vector<CostRun>& runs, const std::vector<std::string>& levels);
 
-/// Cheapest level whose permanent deflection lies within `wanted` (a fraction) of the finest, two standard errors
-/// included;
+/// Cheapest level whose permanent deflection (peak, where nothing was brought to rest) lies within `wanted` (a
+/// fraction) of the finest, two standard errors included;
 /// "" if none does, or if no level but the finest was run.
 std::string level_for_error(const std::vector<LevelCost>& costs, double wanted);
 

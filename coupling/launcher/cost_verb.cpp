@@ -110,6 +110,13 @@ void announce(const CostOptions& options, const CostStudy& study, const std::str
                 wall_text(options.budget).c_str());
 }
 
+std::string outcome(const CostRun& run) {
+  if (run.exit_code != 0) return "failed";
+  const bool at_rest = std::isfinite(run.permanent_m);
+  return fmt::format("{} {:.2f} mm  impulse {:.1f} N s  {:.1f} s", at_rest ? "permanent" : "peak",
+                     1e3 * (at_rest ? run.permanent_m : run.peak_m), run.impulse_Ns, run.seconds);
+}
+
 /// Makes or reuses one run. Returns the cause if the study itself must end (interrupted, wrong case).
 std::optional<Cause> make_run(const CostOptions& options, const PlannedRun& planned, const std::string& title,
                               const std::string& folder, std::vector<CostRun>& runs) {
@@ -126,12 +133,7 @@ std::optional<Cause> make_run(const CostOptions& options, const PlannedRun& plan
   runs.push_back(cost_run_of(*run_folder, planned));
   const CostRun& run = runs.back();
   if (!options.quiet)
-    std::printf("%s  exit %d  %s%s\n", title.c_str(), run.exit_code,
-                run.exit_code == 0 ? fmt::format("permanent {:.2f} mm  impulse {:.1f} N s  {:.1f} s",
-                                                 run.permanent_m * 1e3, run.impulse_Ns, run.seconds)
-                                         .c_str()
-                                   : "failed",
-                reused ? "  (reused)" : "");
+    std::printf("%s  exit %d  %s%s\n", title.c_str(), run.exit_code, outcome(run).c_str(), reused ? "  (reused)" : "");
   std::fflush(stdout);
   if (cause && (cause->code == ExitCode::interrupted || run.exit_code == static_cast<int>(ExitCode::bad_case)))
     return cause;

@@ -43,8 +43,8 @@ Vec3 element_edges(const PlateSpec& plate) {
   return {plate.size.x / plate.elements[0], plate.size.y / plate.elements[1], plate.size.z / plate.elements[2]};
 }
 
-/// Longest window in which the plate moves a tenth of a particle's radius (what the load side asks for), from Gurney's
-/// estimate of the momentum that arrives at the plate's centre.
+/// Longest window in which the plate moves by a particle's radius (what the load side asks for), from Gurney's estimate
+/// of the momentum that arrives at the plate's centre.
 double particle_window(const CaseSpec& spec, double smallest_radius) {
   const ChargeSpec& charge = spec.charge;
   const double energy = charge.mass * charge.explosive.energy / charge.explosive.density;
@@ -52,7 +52,7 @@ double particle_window(const CaseSpec& spec, double smallest_radius) {
   const double speed = std::sqrt(2.0 * energy / (sand + 0.6 * charge.mass));
   const double area = 4.0 * pi * spec.run.stand_off * spec.run.stand_off;
   const double wall = (sand + 0.75 * charge.mass) * speed / area / (spec.plate.material.density * spec.plate.size.z);
-  return 0.1 * smallest_radius / wall;
+  return smallest_radius / wall;
 }
 
 double gas_radius(const ChargeSpec& charge) {
@@ -61,10 +61,7 @@ double gas_radius(const ChargeSpec& charge) {
 }
 
 double automatic_window(const CaseSpec& spec) {
-  const Vec3 edge = element_edges(spec.plate);
-  const MaterialSpec& m = spec.plate.material;
-  const double shear_speed = std::sqrt(m.youngs_modulus / (2.0 * (1.0 + m.poissons_ratio)) / m.density);
-  double window = std::min(edge.x, edge.y) / 3.0 / shear_speed;
+  const double window = 2.0 * spec.plate.size.z / sound_speed(spec.plate.material);
   if (!spec.charge.present) return window;
   double radius = gas_radius(spec.charge);
   if (spec.soil.kind != SoilKind::none)
@@ -141,7 +138,9 @@ void plan_sand(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) 
   const double mass = volume * soil.bulk_density;
   const double cell = std::cbrt(1000.0 * volume);
   p.sand_step = std::min(p.window, c.sand_step_fraction * 2.0 * std::sqrt(mass / (soil.stiffness * cell)));
-  p.sand_steps = std::ceil(spec.run.until / p.sand_step);
+  p.sand_steps = p.windows * std::ceil(p.window / p.sand_step * (1.0 - 1e-9));
+  p.gas_steps = std::max(p.gas_steps, p.charge_particles > 0 ? p.sand_steps : 0.0);  // both move in the same sub-steps
+  p.gas_s = p.gas_steps * p.simulated(p.charge_particles) * (c.gas_particle_step + c.gas_beside_sand);
   double price = c.grain_step;
   if (soil.friction > 0.0) price += c.grain_friction, p.particle_bytes += p.simulated(soil.particles) * history_bytes;
   if (soil.damping > 0.0) price += c.grain_damping;
@@ -157,10 +156,12 @@ void choose_threads(const CaseSpec& spec, int cores, CostPrediction& p) {
     p.particle_threads = p.structure_threads = cores;
     return;
   }
-  const double share = structure / (particles + structure);
-  // A core for a side that is idle most of the time is wasted: below a fifth of a core it shares.
-  const int for_structure =
-      share * cores < 0.2 ? 0 : std::clamp(static_cast<int>(std::lround(share * cores)), 1, cores - 1);
+  // A core for a side that is idle most of the time is wasted: below two fifths of a core it shares with the other.
+  constexpr double worth_a_core = 0.4;
+  const double wanted = cores * structure / (particles + structure);
+  int for_structure = std::clamp(static_cast<int>(std::lround(wanted)), 1, cores - 1);
+  if (wanted < worth_a_core) for_structure = 0;
+  if (cores - wanted < worth_a_core) for_structure = cores;
   p.structure_threads = std::max(1, for_structure);
   p.particle_threads = std::max(1, cores - for_structure);
 }

@@ -212,6 +212,7 @@ OrderedJson run_record(const CaseSpec& spec, const RunFacts& facts, const std::m
   record["timing"] = OrderedJson{{"wall_s", facts.wall_s}};
   if (merged.contains("timing"))
     for (const auto& [key, value] : merged["timing"].items()) record["timing"][key] = value;
+  for (const auto& [name, seconds] : facts.cpu_s) record["timing"]["cpu_s"][name] = seconds;
   for (const auto& [name, bytes] : facts.peak_bytes) record["memory"][name + "_peak_bytes"] = bytes;
   record["provenance"] = provenance(facts, reports, merged.value("provenance", json()));
   for (const auto& [key, value] : merged.items())

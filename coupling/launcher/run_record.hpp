@@ -35,6 +35,7 @@ struct RunFacts {
   double largest_work_error = 0.0, largest_external_work = 0.0;  // J, full domain, over histories.csv
   std::map<std::string, double> effect_bytes;                    // predicted; a report's own figure wins
   std::map<std::string, long> peak_bytes;                        // resident memory by process
+  std::map<std::string, double> cpu_s;  // processor time by process, whatever else the machine does
   BuildFacts build;
   std::string cpu;
 };

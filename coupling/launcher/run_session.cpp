@@ -175,7 +175,10 @@ void RunSession::write_record() {
 }
 
 int RunSession::close(std::optional<Cause> cause) {
-  for (const ChildProcess& child : supervisor_.children()) facts_.peak_bytes[child.name] = child.peak_bytes;
+  for (const ChildProcess& child : supervisor_.children()) {
+    facts_.peak_bytes[child.name] = child.peak_bytes;
+    facts_.cpu_s[child.name] = child.cpu_s;
+  }
   try {
     histories_.append(table_.finish());
   } catch (const Stop& stop) {

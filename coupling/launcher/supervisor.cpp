@@ -25,6 +25,10 @@ std::optional<ProcessEnd> ended(const ChildProcess& child) {
   return ProcessEnd{child.name, info.si_code != CLD_EXITED, info.si_status};
 }
 
+double seconds_of(const timeval& t) {
+  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
 }  // namespace
 
 SignalGate::SignalGate() {
@@ -136,6 +140,7 @@ void Supervisor::reap() {
     while (waitpid(-child.pid, nullptr, 0) > 0) continue;  // its orphans have become ours
     child.alive = false;
     child.peak_bytes = usage.ru_maxrss * 1024;
+    child.cpu_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     if (!cause_) ends_.push_back(*end);
   }
 }

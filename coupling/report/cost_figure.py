@@ -82,7 +82,7 @@ def table_html(levels):
         cells = f"<td>{html.escape(level)}</td><td>{len(runs)}</td>"
         for key, factor in [(k, f) for k, _, f in QUANTITIES] + [("wall_s", 1.0)]:
             mean, deviation, _ = mean_and_error([factor * run[key] for run in runs])
-            cells += f"<td>{mean:.2f}" + ("" if math.isnan(deviation) else f" ± {deviation:.2f}") + "</td>"
+            cells += "<td>" + ("–" if math.isnan(mean) else f"{mean:.2f}") + ("" if math.isnan(deviation) else f" ± {deviation:.2f}") + "</td>"
         rows += f"<tr>{cells}</tr>"
     return f"<table>{head}{rows}</table>"
 
@@ -96,16 +96,19 @@ def main():
         sys.exit("cost_figure: no successful run in cost.csv")
     figure, axes = plt.subplots(2, 2, figsize=(10, 7), layout="constrained")
     for panel, (key, label, factor) in zip(axes.flat, QUANTITIES):
-        draw_values(panel, levels, key, label, factor)
+        if any(not math.isnan(run[key]) for runs in levels.values() for run in runs):
+            draw_values(panel, levels, key, label, factor)
+        else:
+            panel.set_axis_off()
     if len(levels) > 1:
         draw_errors(axes[1, 1], levels)
         axes[1, 1].legend(frameon=False, fontsize=8)
     else:
         axes[1, 1].set_axis_off()
-    axes[0, 0].legend(frameon=False, fontsize=8, title="level (runs)")
+    axes[1, 0].legend(frameon=False, fontsize=8, title="level (runs)")
     for panel in axes.flat:
         panel.spines[["top", "right"]].set_visible(False)
-    figure.suptitle(f"{study.resolve().parent.name}: what accuracy costs")
+    figure.suptitle(f"{study.resolve().parent.name}: what accuracy costs", fontsize=11)
     figure.savefig(study / "cost.svg")
     picture = (study / "cost.svg").read_text()
     (study / "cost.html").write_text(

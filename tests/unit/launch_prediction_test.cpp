@@ -63,13 +63,14 @@ TEST(Prediction, SceneWithoutSand_HasNoSandRow) {
   EXPECT_EQ(p.sand_s + p.packing_s, 0.0);
 }
 
-TEST(Prediction, AutomaticWindow_MovesThePlateATenthOfARadius) {
-  CaseSpec spec = sand_case(10000, 50000, 10);
-  spec.coupling.window_rule = CouplingSpec::Window::automatic;
-  const double coarse = predict_cost(spec, 2).window;
-  spec = sand_case(80000, 400000, 10);
-  spec.coupling.window_rule = CouplingSpec::Window::automatic;
-  EXPECT_NEAR(predict_cost(spec, 2).window / coarse, 0.5, 1e-12);  // radius ~ N^(-1/3)
+TEST(Prediction, AutomaticWindow_IsThatOfThePlateOrOfSmallParticles) {
+  const auto window = [](long charge, long sand) {
+    CaseSpec spec = sand_case(charge, sand, 10);
+    spec.coupling.window_rule = CouplingSpec::Window::automatic;
+    return predict_cost(spec, 2).window;
+  };
+  EXPECT_EQ(window(1000, 5000), window(8000, 40000));  // a wave through the thickness and back
+  EXPECT_NEAR(window(80000000, 400000000) / window(10000000, 50000000), 0.5, 1e-12);  // radius ~ N^(-1/3)
 }
 
 TEST(Prediction, Threads_NeverExceedTheCoresInSum_NorFallBelowOne) {

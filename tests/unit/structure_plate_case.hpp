@@ -50,11 +50,10 @@ inline void give_impulse(PlateHex64& model, double impulse) {
   model.relaxation()->set_state(u, v);
 }
 
-/// A pressure [Pa] on every surface node, through tributary areas.
-inline std::vector<Vec3> pressure_force(const PlateHex64& model, double pressure) {
-  const PlateMesh& mesh = model.plate().mesh();
+/// Forces on the surface nodes of a uniform pressure [Pa] on the loaded face.
+inline std::vector<Vec3> pressure_force(const PlateMesh& mesh, double pressure) {
   std::vector<Vec3> force;
-  for (const double mass : model.surface().node_mass)
+  for (const double mass : plate_surface(mesh).node_mass)
     force.push_back({0.0, 0.0, -pressure * mass / (mesh.options.density * mesh.options.size.z)});
   return force;
 }
