@@ -25,7 +25,7 @@ namespace standoff::particles {
 /// The law of a soil in a packed cell of edge `cell_size` [m]: k = (L/L0) k0 [Borvik 2011, sec. 3.3].
 GrainLaw grain_law(const SoilSpec& soil, double cell_size);
 
-/// 0.05 * 2 sqrt(m/k): a 1/14 of the period of two grains in contact; energy then holds to a few tenths of a percent.
+/// 0.05 * 2 sqrt(m/k): a 22nd of the time that two grains touch; energy then holds to a few tenths of a percent.
 double recommended_step(const GrainLaw& law, double mass);
 
 struct SandPairsOptions {
