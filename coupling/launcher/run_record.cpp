@@ -123,13 +123,28 @@ void add_conservation(json& merged, const CaseSpec& spec, const RunFacts& facts,
   }
 }
 
-OrderedJson effects(const CaseSpec& spec, const RunFacts& facts, const json& reported) {
+/// Stages that exist for one effect alone: their seconds are its measured price.
+std::optional<double> stage_seconds(const std::string& effect, const json& merged) {
+  constexpr std::array<std::array<const char*, 2>, 3> stages{
+      {{"relaxation", "timing.structure.stages.relax"},
+       {"relaxation", "timing.structure.stages.polish"},
+       {"detonation_timing", "timing.particle.stages.detonate"}}};
+  std::optional<double> sum;
+  for (const auto& [name, key] : stages)
+    if (const json* seconds = effect == name ? member(merged, key) : nullptr)
+      sum = sum.value_or(0.0) + seconds->get<double>();
+  return sum;
+}
+
+OrderedJson effects(const CaseSpec& spec, const RunFacts& facts, const json& merged) {
+  const json reported = merged.value("effects", json());
   OrderedJson list = OrderedJson::array();
   for (const EffectDecision& effect : spec.effects) {
     OrderedJson row{{"name", effect.name}, {"on", effect.on}, {"reason", effect.reason}};
     const auto bytes = facts.effect_bytes.find(effect.name);
     row["bytes"] = effect.on && bytes != facts.effect_bytes.end() ? bytes->second : 0.0;
     row["seconds"] = effect.on ? OrderedJson(nullptr) : OrderedJson(0.0);  // null: not measured apart from its stage
+    if (const auto seconds = stage_seconds(effect.name, merged); effect.on && seconds) row["seconds"] = *seconds;
     if (effect.on && reported.is_object() && reported.contains(effect.name))
       for (const auto& [key, value] : reported.at(effect.name).items()) row[key] = value;
     list.push_back(row);
@@ -208,7 +223,7 @@ OrderedJson run_record(const CaseSpec& spec, const RunFacts& facts, const std::m
     if (merged.contains(section) && !merged[section].is_null())
       record[section] = in_contract_order(section, merged[section]);
   record["coupling"] = coupling(spec, facts);
-  record["effects"] = effects(spec, facts, merged.value("effects", json()));
+  record["effects"] = effects(spec, facts, merged);
   record["timing"] = OrderedJson{{"wall_s", facts.wall_s}};
   if (merged.contains("timing"))
     for (const auto& [key, value] : merged["timing"].items()) record["timing"][key] = value;

@@ -12,7 +12,8 @@ using nlohmann::json;
 CaseSpec quarter_case() {
   CaseSpec spec;
   spec.name = "scene", spec.level = "coarse", spec.run.seed = 7;
-  spec.effects = {{"friction", true, "mu = 0.3", false}, {"damping", false, "xi = 0", false}};
+  spec.effects = {
+      {"friction", true, "mu = 0.3", false}, {"damping", false, "xi = 0", false}, {"relaxation", true, "", false}};
   return spec;
 }
 
@@ -106,9 +107,12 @@ TEST(RunRecord, EffectThatIsOff_CostsNothing) {
   facts.effect_bytes = {{"friction", 1000.0}, {"damping", 1000.0}};
   auto reports = two_reports();
   reports["particles"]["effects"]["friction"] = {{"bytes", 1234}, {"seconds", 2.5}};
+  reports["structure"]["timing"]["structure"]["stages"] = {{"relax", 7.0}, {"polish", 0.5}, {"integrate", 3.0}};
   const OrderedJson effects = run_record(quarter_case(), facts, reports)["effects"];
   EXPECT_EQ(effects[0]["bytes"], 1234);
   EXPECT_EQ(effects[0]["seconds"], 2.5);
+  EXPECT_TRUE(effects[2]["seconds"].is_number());
+  EXPECT_EQ(effects[2]["seconds"], 7.5);  // its own stages, added
   EXPECT_EQ(effects[1]["bytes"], 0.0);
   EXPECT_EQ(effects[1]["seconds"], 0.0);
 }
