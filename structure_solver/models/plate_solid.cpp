@@ -12,6 +12,11 @@ namespace {
 
 constexpr double step_safety = 0.9;
 constexpr long steps_between_estimates = 50;
+constexpr long elements_per_thread = 16;  // below this, starting a thread costs more than it saves
+
+int useful_threads(const PlateMesh& mesh, int asked) {
+  return static_cast<int>(std::clamp<long>(asked, 1, std::max(1L, mesh.element_count() / elements_per_thread)));
+}
 
 }  // namespace
 
@@ -43,7 +48,7 @@ PlateMeshOptions mesh_options(const CaseSpec& spec) {
 
 PlateSolid::PlateSolid(const CaseSpec& spec, int threads)
     : mesh_(make_plate_mesh(mesh_options(spec))),
-      threads_(std::max(1, threads)),
+      threads_(useful_threads(mesh_, threads)),
       forces_(mesh_, metal_parameters(spec.plate.material), metal_effects(spec), threads_) {
   const std::size_t n = mesh_.node_count();
   state_.u.resize(n), state_.v.resize(n), state_.internal.resize(n), state_.external.resize(n);
