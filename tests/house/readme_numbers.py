@@ -1,0 +1,199 @@
+#!/usr/bin/python3
+"""Numbers in Markdown files are made here, from finished runs, never typed.
+
+    readme_numbers.py --write [FILE ...]   makes every block again; takes the numbers of new runs from runs/
+    readme_numbers.py --check [FILE ...]   1 if a block is not what its committed input gives (default: all READMEs)
+
+A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- end -->`. Commands:
+
+    result RUN                  one run beside the figures of the case's reference.toml, with its certificate
+    cost   STUDY/cost.csv ...   a row per level of each study, with what was set: mean and spread over seeds, seconds
+
+RUN and STUDY are folders runs/CASE/NAME. They are not committed: what a block needs is kept in the folder of the case, run.json,
+reduced, as results/NAME.json and cost.csv as results/NAME.csv (cost.csv where NAME is cost-NUMBER). Blocks are made from
+these copies alone. An input may also be such a copy itself.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import re
+import statistics
+import sys
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BLOCK = re.compile(r"(<!-- numbers: (\S+) (.+?) -->\n)(.*?)(<!-- end -->)", re.S)
+# A name ends in its unit: factor and text of the unit shown, decimals.
+UNITS = {"_Ns": (1, " N s", 1), "_per_s": (1, " 1/s", 0), "_m": (1e3, " mm", 2), "_K": (1, " K", 1), "_s": (1e6, " us", 1)}
+STATED = {"mm": 1e-3, "m": 1.0, "N s": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "K": 1.0, "1/s": 1.0}
+BOOKS = [("energy_error_particles", "energy of the particles, largest error of initial energy and inflow", "{:.2%}"),
+         ("energy_error_structure", "energy of the plate, largest error of peak external work", "{:.3%}"),
+         ("interface_work_error", "work across the interface, difference of external work", "{:.2%}"),
+         ("momentum_error", "momentum of everything, error of the sum of impulses", "{:.0e}")]
+COLUMNS = [("permanent_centre_deflection_m", "permanent centre mm", 1e3, 2), ("permanent_max_deflection_m", "profile max mm", 1e3, 2),
+           ("peak_centre_deflection_m", "peak centre mm", 1e3, 2), ("impulse_Ns", "impulse N s", 1, 1), ("wall_s", "seconds", 1, 0)]
+
+
+def unit_of(name):
+    return next(((ending, *rest) for ending, rest in UNITS.items() if name.endswith(ending)), ("", 1, "", 3))
+
+
+def show(name, value):
+    _, factor, text, decimals = unit_of(name)
+    return f"{value * factor:.{decimals}f}{text}"
+
+
+def table(rows):
+    lines = ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join([lines[0], "| --- " + "| ---: " * (len(rows[0]) - 1) + "|", *lines[1:]]) + "\n"
+
+
+def references(copy):
+    """Figures to compare with, of the case that owns `copy`: (quantity, source, value in SI)."""
+    path = copy.parent.parent / "reference.toml"
+    found = tomllib.loads(path.read_text())["references"] if path.exists() else []
+    value = lambda text: float(text.partition(" ")[0]) * STATED[text.partition(" ")[2]]
+    return [(one["quantity"], one["source"], value(one["value"])) for one in found]
+
+
+def committed_copy(text):
+    path = pathlib.PurePosixPath(text)
+    if path.parts[0] != "runs":
+        return ROOT / path
+    folders = [p.parent for p in (ROOT / "cases").rglob("case.toml") if p.parent.name == path.parts[1]]
+    if len(folders) != 1:
+        raise SystemExit(f"readme_numbers: {text}: {len(folders)} cases have the name {path.parts[1]}")
+    study = "cost" if re.fullmatch(r"cost-\d+", path.parent.name) else path.parent.name
+    return folders[0] / "results" / (f"{study}.csv" if path.suffix == ".csv" else f"{path.name}.json")
+
+
+def read_record(folder):
+    """run.json; six digits are what a README may need, and the same on every machine."""
+    return json.loads((folder / "run.json").read_text(), parse_float=lambda digits: float(f"{float(digits):.6g}"))
+
+
+def changed_values(run_folder):
+    return re.findall(r"^(\w+ = \S.*?) +# --set$", (run_folder / "case.resolved.toml").read_text(), re.M)
+
+
+def kept_of_run(folder):
+    record = read_record(folder)
+    if record["status"] != "done":
+        raise SystemExit(f"readme_numbers: {folder}: status is {record['status']}; only a finished run has results")
+    kept = {key: record[key] for key in ("case", "level", "seed", "structure_model", "results", "counts")}
+    kept["set"] = changed_values(folder)
+    kept["conservation"] = {key: record["conservation"][key] for key, _, _ in BOOKS}
+    kept["relaxation"] = {key: record["relaxation"][key] for key in ("at_rest", "kinetic_ratio", "residual_N", "drift_m_per_period")}
+    kept["wall_s"] = record["timing"]["wall_s"]
+    kept["provenance"] = {key: record["provenance"][key] for key in ("version", "git", "cpu", "threads", "case_hash")}
+    return json.dumps(kept, indent=1) + "\n"
+
+
+def kept_of_study(path):
+    """The table as it is; above it, what it does not say: the processor behind its seconds, and what was set."""
+    runs = sorted(p.parent for p in path.parent.glob("*/run.json"))
+    provenance = read_record(runs[0])["provenance"]
+    head = {key: provenance[key] for key in ("version", "git", "cpu")} | {"set": changed_values(runs[0])}
+    return f"# {json.dumps(head)}\n{path.read_text()}"
+
+
+def keep(text):
+    source, copy = ROOT / text, committed_copy(text)
+    if source == copy or not source.exists():
+        return
+    copy.parent.mkdir(exist_ok=True)
+    copy.write_text(kept_of_study(source) if source.suffix == ".csv" else kept_of_run(source))
+
+
+def result(copy):
+    run = json.loads(copy.read_text())
+    rows = [["quantity", "ours", "reference", "difference", "source"]]
+    known = references(copy)
+    for name, value in run["results"].items():
+        beside = [[show(name, other), f"{value / other - 1:+.1%}", source] for what, source, other in known if what == name]
+        own = [name.removesuffix(unit_of(name)[0]).replace("_", " "), show(name, value)]
+        for i, cells in enumerate(beside or [["", "", ""]]):
+            rows.append([*(own if i == 0 else ["", ""]), *cells])
+    books = [["book", "value"]] + [[text, form.format(run["conservation"][key])] for key, text, form in BOOKS]
+    rest, counts = run["relaxation"], run["counts"]
+    books.append(["at rest", f"{'yes' if rest['at_rest'] else 'NO'}: kinetic energy {rest['kinetic_ratio']:.0e} of its peak, "
+                  f"unbalanced force {rest['residual_N']:.1g} N, drift {1e6 * rest['drift_m_per_period']:.2f} um per period"])
+    particles = ", ".join(f"{counts[f'{medium}_particles']:,} {medium} particles" for medium in ("charge", "sand", "air")
+                          if f"{medium}_particles" in counts)
+    return (table(rows) + "\n" + table(books) + f"\n{', '.join([run['level'], *run['set']])}, seed {run['seed']}: {particles}, "
+            f"{counts['elements']} elements; {run['wall_s']:.0f} s on {run['provenance']['cpu']}.\n")
+
+
+def study(copy):
+    head, *lines = copy.read_text().splitlines()
+    return json.loads(head[2:]), list(csv.DictReader(lines))
+
+
+def spread(runs, column, factor, decimals):
+    values = [float(run[column]) * factor for run in runs if run[column]]
+    deviation = f" ± {statistics.stdev(values):.{decimals}f}" if len(values) > 1 else ""
+    return f"{statistics.mean(values):.{decimals}f}{deviation}" if values else ""
+
+
+def cost_row(first, tried):
+    runs = [run for run in tried if run["exit_code"] == "0"]
+    counts = " / ".join(f"{int(tried[0][key]):,}" for key in ("charge_particles", "sand_particles", "elements"))
+    failed = f" ({len(tried) - len(runs)} failed)" if len(runs) < len(tried) else ""
+    worst = max((float(run["energy_error_particles"]) for run in runs), default=float("nan"))
+    return [first, counts, f"{len(runs)}{failed}", *(spread(runs, name, *form) for name, _, *form in COLUMNS), f"{worst:.2%}"]
+
+
+def cost(*copies):
+    rows = [["level", "C-4 / sand / elements", "runs", *(title for _, title, *_ in COLUMNS), "energy error"]]
+    studies = [study(copy) for copy in copies]
+    for head, runs in studies:
+        for level in dict.fromkeys(run["level"] for run in runs):
+            rows.append(cost_row(", ".join([level, *head["set"]]), [run for run in runs if run["level"] == level]))
+    places = {name: 3 + i for i, (name, *_) in enumerate(COLUMNS)}
+    for name, source, value in references(copies[0]):
+        if name in places:
+            rows.append([source, *[""] * (len(rows[0]) - 1)])
+            rows[-1][places[name]] = f"{value * unit_of(name)[1]:.1f}"
+    return table(rows) + ("\nMean ± standard deviation over seeds; energy error of the particles: the largest; "
+                          f"seconds on {'; '.join(sorted({head['cpu'] for head, _ in studies}))}.\n")
+
+
+COMMANDS = {"result": result, "cost": cost}
+
+
+def block_text(match):
+    head, command, inputs, _, end = match.groups()
+    if command not in COMMANDS:
+        raise SystemExit(f"readme_numbers: unknown command {command}; there are {', '.join(COMMANDS)}")
+    copies = [committed_copy(text) for text in inputs.split()]
+    for copy in copies:
+        if not copy.exists():
+            raise SystemExit(f"readme_numbers: {copy.relative_to(ROOT)} is missing; make the run and use --write")
+    return head + COMMANDS[command](*copies) + end
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    how = parser.add_mutually_exclusive_group(required=True)
+    for name in ("--write", "--check"):
+        how.add_argument(name, action="store_true")
+    parser.add_argument("files", nargs="*", type=pathlib.Path)
+    options = parser.parse_args()
+    stale = 0
+    for path in options.files or [ROOT / "README.md", *sorted((ROOT / "cases").rglob("README.md"))]:
+        text = path.read_text()
+        if options.write:
+            for block in BLOCK.findall(text):
+                list(map(keep, block[2].split()))
+        fresh = BLOCK.sub(block_text, text)
+        if fresh != text:
+            stale += 1
+            print(f"{path}: {'rewritten' if options.write else 'numbers are not those of the committed results; use --write'}")
+            if options.write:
+                path.write_text(fresh)
+    return 1 if options.check and stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
