@@ -5,6 +5,17 @@
 
 namespace standoff::structure {
 
+namespace {
+
+/// Nodes of the full surface: those of a quarter once for every mirror image, those on a mirror plane once.
+long full_surface_nodes(const SurfaceMesh& mesh, bool quarter) {
+  long count = 0;
+  for (const Vec3& x : mesh.position) count += quarter ? (x.x > 0.0 ? 2 : 1) * (x.y > 0.0 ? 2 : 1) : 1;
+  return count;
+}
+
+}  // namespace
+
 void StructureBooks::observe(const StructuralModel& model) {
   const StructureLedger books = model.ledger();
   peak_kinetic_ = std::max(peak_kinetic_, books.kinetic);
@@ -62,6 +73,7 @@ nlohmann::json StructureBooks::report(const StructuralModel& model, const Relaxa
   const auto& mesh = spec_.plate.elements;
   j["counts"] = {{"elements", static_cast<long>(mesh[0]) * mesh[1] * mesh[2]},
                  {"simulated_elements", model.elements()},
+                 {"surface_nodes", full_surface_nodes(model.surface(), spec_.run.quarter_symmetry)},
                  {"simulated_surface_nodes", model.surface().position.size()},
                  {"structure_steps", steps}};
   auto& timing = j["timing"]["structure"];
