@@ -46,7 +46,7 @@ nlohmann::json StructureBooks::report(const StructuralModel& model, const Relaxa
                                       const Participant::Times& times) const {
   const StructureExtremes extremes = model.extremes();
   nlohmann::json j;
-  auto& results = j["results"];
+  auto& results = j["results"] = nlohmann::json::object();
   if (relaxation != nullptr) {
     results["permanent_centre_deflection_m"] = model.centre_deflection();
     results["permanent_max_deflection_m"] = model.max_deflection();
@@ -61,12 +61,15 @@ nlohmann::json StructureBooks::report(const StructuralModel& model, const Relaxa
                        {"wall_s", relaxation->wall_relax + relaxation->wall_polish},
                        {"message", relaxation->message}};
   }
-  results["peak_centre_deflection_m"] = peak_deflection_;
-  results["max_plastic_strain"] = extremes.max_plastic_strain;
-  results["centre_plastic_strain"] = extremes.centre_plastic_strain;
-  results["max_plastic_strain_away_from_clamp"] = extremes.max_plastic_strain_away_from_clamp;
-  if (spec_.effect("strain_rate")) results["max_strain_rate_per_s"] = extremes.max_strain_rate;
-  if (spec_.effect("heating")) results["max_temperature_rise_K"] = extremes.max_temperature_rise;
+  // A model without elements cannot deform: a zero would read as a result.
+  if (model.elements() > 0) {
+    results["peak_centre_deflection_m"] = peak_deflection_;
+    results["max_plastic_strain"] = extremes.max_plastic_strain;
+    results["centre_plastic_strain"] = extremes.centre_plastic_strain;
+    results["max_plastic_strain_away_from_clamp"] = extremes.max_plastic_strain_away_from_clamp;
+    if (spec_.effect("strain_rate")) results["max_strain_rate_per_s"] = extremes.max_strain_rate;
+    if (spec_.effect("heating")) results["max_temperature_rise_K"] = extremes.max_temperature_rise;
+  }
   j["conservation"] = {{"energy_error_structure", energy_error()},
                        {"momentum_residual_Ns", {momentum_residual_.x, momentum_residual_.y, momentum_residual_.z}},
                        {"impulse_scale_Ns", impulse_scale_}};
