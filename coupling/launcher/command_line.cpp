@@ -1,7 +1,6 @@
 #include "coupling/launcher/command_line.hpp"
 
 #include <cstdio>
-#include <functional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "coupling/base/stop.hpp"
 #include "coupling/case/near_word.hpp"
 #include "coupling/launcher/build_facts.hpp"
+#include "coupling/launcher/command_line_verbs.hpp"
 #include "coupling/launcher/verbs.hpp"
 
 namespace standoff::launch {
@@ -68,9 +68,6 @@ CaseOverrides with_set(CaseOverrides overrides, const Texts& texts) {
 double max_time_of(const Texts& texts) {
   return texts.max_time.empty() ? 0.0 : wall_seconds(texts.max_time);
 }
-
-/// One verb: its options on the command line and what to do once they are read.
-using Action = std::function<int()>;
 
 Action add_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
@@ -169,7 +166,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
       const std::string name = extra.substr(0, extra.find('='));
       return fmt::format("unknown option {}\n  {}", name, did_you_mean(name, option_names(where), "options here"));
     }
-    return fmt::format("\"{}\" is one argument too many; {} takes one CASE", extra, where.get_name());
+    return fmt::format("\"{}\" is one argument too many; see standoff {} --help", extra, where.get_name());
   }
   return error.what();
 }
@@ -179,7 +176,7 @@ int complain(const std::string& text) {
   return static_cast<int>(ExitCode::bad_case);
 }
 
-int parse_and_call(CLI::App& app, const std::map<std::string, Action>& actions, int argc, char** argv) {
+int parse_and_call(CLI::App& app, const Actions& actions, int argc, char** argv) {
   std::vector<std::string> names;
   for (const auto& [name, action] : actions) names.push_back(name);
   if (argc < 2) return complain("a verb is missing\n  " + did_you_mean("", names, "verbs") + "; see standoff --help");
@@ -220,8 +217,9 @@ int launch(int argc, char** argv) {
   app.footer(closing);
   app.set_version_flag("--version", build_facts().version + " (" + build_facts().git + ")");
   app.require_subcommand(1);
-  const std::map<std::string, Action> actions{
-      {"run", add_run(app)}, {"check", add_check(app)}, {"plan", add_plan(app)}, {"cost", add_cost(app)}};
+  Actions actions{{"run", add_run(app)}, {"check", add_check(app)}, {"plan", add_plan(app)}, {"cost", add_cost(app)}};
+  add_fact_verbs(app, actions);
+  add_folder_verbs(app, actions);
   try {
     return parse_and_call(app, actions, argc, argv);
   } catch (const Stop& stop) {

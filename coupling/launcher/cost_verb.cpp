@@ -8,9 +8,9 @@
 
 #include "coupling/base/state_hash.hpp"
 #include "coupling/base/stop.hpp"
-#include "coupling/launcher/build_facts.hpp"
 #include "coupling/launcher/child_process.hpp"
 #include "coupling/launcher/cost_study.hpp"
+#include "coupling/launcher/report_script.hpp"
 #include "coupling/launcher/run_folder.hpp"
 #include "coupling/launcher/text_format.hpp"
 #include "coupling/output/atomic_file.hpp"
@@ -140,22 +140,9 @@ std::optional<Cause> make_run(const CostOptions& options, const PlannedRun& plan
   return std::nullopt;
 }
 
-std::string report_script(const std::string& name) {
-  for (const std::string& folder :
-       {program_folder() + "/../share/standoff/report", build_facts().source_folder + "/coupling/report"})
-    if (std::error_code ignored; files::exists(folder + "/" + name, ignored)) return folder + "/" + name;
-  return "";
-}
-
 void draw(const std::string& folder) {
-  const std::string script = report_script("cost_figure.py");
-  if (script.empty()) {
-    std::printf("no figure: the report scripts are not installed\n");
-    return;
-  }
-  const auto cause = run_to_end("figure", {"/usr/bin/python3", script, folder},
-                                [](const std::string& line) { std::printf("%s\n", line.c_str()); });
-  if (cause) std::printf("no figure was drawn; cost.csv holds the numbers\n");
+  const std::string trouble = run_report_script("cost_figure.py", {folder});
+  if (!trouble.empty()) std::printf("no figure was drawn: %s; cost.csv holds the numbers\n", trouble.c_str());
 }
 
 }  // namespace

@@ -135,7 +135,8 @@ void RunSession::operator()(const ProgressEvent& event) {
   const double now = supervisor_.seconds();
   if (now - last_progress_logged_ < progress_log_period) return;
   last_progress_logged_ = now;
-  log_.event(event.name, progress_line(view_.progress()), {{"event", "progress"}, {"values", event.values}});
+  log_.event(event.name, progress_line(view_.progress()),
+             {{"event", "progress"}, {"name", event.name}, {"values", event.values}});
 }
 
 void RunSession::operator()(const SampleEvent& event) {

@@ -51,6 +51,37 @@ struct CostOptions {
 };
 int cost_verb(const CostOptions& options);
 
+struct DocOptions {
+  std::string key;  // "" = list everything
+  bool json = false;
+};
+int doc_verb(const DocOptions& options);
+int effects_verb(bool json);
+int presets_verb(bool json);
+int models_verb(bool json);
+/// Writes a template case into `folder`, or prints it if there is none.
+int new_verb(const std::string& folder);
+
+struct FolderOptions {
+  std::string folder;
+  bool json = false;
+};
+int status_verb(const FolderOptions& options);
+/// Returns the exit code of the run that it followed.
+int watch_verb(const FolderOptions& options);
+
+struct CompareOptions {
+  std::string first, second;
+  bool json = false;
+};
+int compare_verb(const CompareOptions& options);
+
+struct ReportOptions {
+  std::vector<std::string> folders;
+  std::string out;  // "" = report.html in the first folder
+};
+int report_verb(const ReportOptions& options);
+
 /// Prints every error and warning on standard error; true if the case is good.
 bool print_diagnostics(const CaseRead& read);
 

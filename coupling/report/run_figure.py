@@ -14,7 +14,8 @@ try:
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 except ImportError:
-    sys.exit("run_figure: matplotlib is missing; install it with: apt-get install python3-matplotlib")
+    plt = None
+MISSING = "matplotlib is missing; install it with: apt-get install python3-matplotlib"
 
 # One colour a thing, in every panel; distinguishable without colour vision (Okabe and Ito 2008).
 COLOURS = {"total": "#000000", "gas": "#D55E00", "sand": "#E69F00", "air": "#56B4E9", "plate": "#0072B2", "loss": "#999999"}
@@ -33,11 +34,16 @@ def read_columns(path):
     """Columns of a table by name; an empty field is NaN. Nothing if there is no such file."""
     if not path.exists():
         return {}
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
+    whole = path.read_text().rpartition("\n")[0]  # a run that is still written may end in half a row
+    rows = list(csv.reader(whole.splitlines()))
     if len(rows) < 2:
         return {}
     return {name: [float(row[i]) if row[i] else float("nan") for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
+def add_legend(axes):
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(frameon=False, fontsize=8)
 
 
 def draw_impulse(axes, history):
@@ -46,10 +52,12 @@ def draw_impulse(axes, history):
         if column in history:
             axes.plot(time, history[column], color=COLOURS[colour], lw=2 if colour == "total" else 1.3, label=colour)
     axes.set(xlabel="time, ms", ylabel="impulse on the plate, N s", title="impulse")
-    axes.legend(frameon=False)
+    add_legend(axes)
 
 
 def draw_deflection(axes, history, results, references):
+    if "centre_deflection_m" not in history:
+        return axes.set_axis_off()
     axes.plot([1e3 * t for t in history["time_s"]], [1e3 * w for w in history["centre_deflection_m"]], color=COLOURS["plate"], lw=2)
     permanent = results.get("permanent_centre_deflection_m")
     if permanent is not None:
@@ -57,7 +65,7 @@ def draw_deflection(axes, history, results, references):
     for (source, value), style in zip(references, [":", "-.", (0, (1, 4)), (0, (4, 2, 1, 2, 1, 2))]):
         axes.axhline(1e3 * value, color=COLOURS["total"], ls=style, lw=1, label=f"{source} {1e3 * value:.1f} mm")
     axes.set(xlabel="time, ms", ylabel="deflection of the centre, mm", title="centre of the plate")
-    axes.legend(frameon=False, fontsize=8)
+    add_legend(axes)
 
 
 def draw_profile(axes, profile):
@@ -77,11 +85,15 @@ def draw_energies(axes, history):
             axes.plot(time, total, color=COLOURS[colour], ls=style, lw=1.5, label=label)
     axes.set(xlabel="time, ms", ylabel="energy, kJ", title="where the energy is", yscale="log")
     axes.set_ylim(bottom=1e-2)
-    axes.legend(frameon=False, fontsize=8)
+    add_legend(axes)
 
 
-def references_of(run):
-    """(source, value) of the published permanent deflections that the resolved case carries: the test and the nearest run."""
+# Factors to SI of the units that references are written in; a resolved case holds SI alone.
+TO_SI = {"": 1.0, "m": 1.0, "mm": 1e-3, "um": 1e-6, "N s": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "K": 1.0, "1/s": 1.0}
+
+
+def all_references(run):
+    """(quantity, source, value) of every published or measured figure that the resolved case carries."""
     import tomllib
 
     path = run / "case.resolved.toml"
@@ -93,9 +105,15 @@ def references_of(run):
         return []
     found = []
     for entry in case.get("references", []):
-        if entry.get("quantity") == "permanent_centre_deflection_m":
-            value, _, unit = str(entry["value"]).partition(" ")
-            found.append((entry["source"], float(value) * {"mm": 1e-3, "m": 1.0, "": 1.0}[unit]))
+        value, _, unit = str(entry["value"]).partition(" ")
+        if unit in TO_SI:
+            found.append((entry["quantity"], entry["source"], float(value) * TO_SI[unit]))
+    return found
+
+
+def references_of(run):
+    """(source, value) of the permanent deflections to show: the test and the nearest computation."""
+    found = [(source, value) for name, source, value in all_references(run) if name == "permanent_centre_deflection_m"]
     tests = [f for f in found if "test" in f[0]]
     papers = [f for f in found if "test" not in f[0]]
     return tests + papers[:1]
@@ -113,14 +131,13 @@ def subtitle(record):
         ]
         if key in books
     ]
-    return f"{rest}; energy errors: {', '.join(errors)}; {record['timing']['wall_s']:.0f} s of wall clock"
+    wall = record.get("timing", {}).get("wall_s", 0.0)
+    return f"{rest}; energy errors: {', '.join(errors) or 'not reported'}; {wall:.0f} s of wall clock"
 
 
-def draw_run(run, stem):
-    record = json.loads((run / "run.json").read_text())
-    history, profile = read_columns(run / "histories.csv"), read_columns(run / "profile.csv")
-    if not history:
-        sys.exit(f"run_figure: {run}/histories.csv holds no rows")
+def make_figure(run, record, history):
+    """The four panels of a run; `history` are the columns of its histories.csv."""
+    profile = read_columns(run / "profile.csv")
     figure, axes = plt.subplots(2, 2, figsize=(10, 7), layout="constrained")
     draw_impulse(axes[0, 0], history)
     draw_deflection(axes[0, 1], history, record.get("results", {}), references_of(run))
@@ -133,6 +150,14 @@ def draw_run(run, stem):
         panel.spines[["top", "right"]].set_visible(False)
     level = f", level {record['level']}" if record.get("level") else ""
     figure.suptitle(f"{record['case']}{level}, seed {record['seed']}\n{subtitle(record)}", fontsize=11)
+    return figure
+
+
+def draw_run(run, stem):
+    record, history = json.loads((run / "run.json").read_text()), read_columns(run / "histories.csv")
+    if not history:
+        sys.exit(f"run_figure: {run}/histories.csv holds no rows")
+    figure = make_figure(run, record, history)
     for extension in ("svg", "png"):
         figure.savefig(f"{stem}.{extension}", dpi=150)
         print(f"{stem}.{extension}")
@@ -144,6 +169,8 @@ def main():
     run = pathlib.Path(sys.argv[1])
     if not (run / "run.json").exists():
         sys.exit(f"run_figure: {run} is not a run folder (no run.json)")
+    if plt is None:
+        sys.exit(f"run_figure: {MISSING}")
     draw_run(run, sys.argv[2] if len(sys.argv) == 3 else str(run / "figure"))
 
 
