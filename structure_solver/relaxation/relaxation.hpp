@@ -17,13 +17,14 @@ struct RelaxationOptions {
   double time_cap = 30e-3;           // s of simulated time
   double rest_residual = 1.0;        // N
   double rest_kinetic_ratio = 1e-9;
-  double rest_drift = 2e-6;                                                            // m per period
-  std::function<void(double time, double deflection, double kinetic_ratio)> progress;  // also keeps heartbeats going
+  double rest_drift = 2e-6;  // m per period
+  /// Called while it works, also to keep heartbeats going.
+  std::function<void(double time, double deflection, double kinetic_ratio)> progress;
 
   RelaxationMethod method = RelaxationMethod::implicit;
   double damping_factor = 1.0;  // alpha = damping_factor * 2 omega_1; too small rings on, too large creeps
-  double relative_tolerance =
-      1e-4;                       // of CVODE; 1e-2 ends in a wrong rest state, because plastic flow depends on the path
+  /// Of CVODE. 1e-2 ends in a wrong rest state, because plastic flow depends on the path.
+  double relative_tolerance = 1e-4;
   double explicit_step = 0.0;     // s, of the leapfrog; 0: from the highest frequency
   bool polish = true;             // static Newton solve at the end
   double polish_residual = 1e-3;  // N, what the polish aims at; rounding leaves about this much
@@ -43,9 +44,8 @@ struct RelaxationResult {
   bool polished = false;                  // a static solve was accepted
   double plastic_work_last_period = 0.0;  // J
   double damping_energy = 0.0;            // J, taken out in all: booked, so that the model's ledger closes
-  double damping_integral =
-      0.0;                  // J, integral of alpha v.M v; the rest of damping_energy is that of the time integration
-  long negative_modes = 0;  // negative eigenvalues of the stiffness at the start
+  double damping_integral = 0.0;          // J, integral of alpha v.M v; the rest is what the time integration took
+  long negative_modes = 0;                // negative eigenvalues of the stiffness at the start
   long steps = 0, factorisations = 0, linear_iterations = 0;
 };
 

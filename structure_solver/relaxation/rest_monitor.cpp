@@ -11,8 +11,7 @@ void RestMonitor::observe(double time, double deflection, double kinetic_energy,
   peak_kinetic_ = std::max(peak_kinetic_, kinetic_energy);
   const auto index = static_cast<long>(std::floor(time / period_ * bins_per_period));
   if (bins_.empty() || bins_.back().index != index) {
-    // The new bin starts where the last observation was, so that a long step leaves no gap in the plastic work.
-    bins_.push_back({index, time, deflection, deflection, kinetic_energy, bins_.empty() ? plastic_work : plastic_});
+    bins_.push_back({index, time, deflection, deflection, kinetic_energy, plastic_work});
     while (bins_.size() > 1 && bins_[1].first_time <= time - period_) bins_.pop_front();
   }
   Bin& bin = bins_.back();
