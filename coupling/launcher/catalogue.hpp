@@ -21,7 +21,7 @@ OrderedJson keys_json(const std::vector<std::string>& paths);
 std::string keys_text(const std::vector<std::string>& paths);
 /// One line on what is no row of the table of keys: "effects", "levels", "references", "use". Empty for anything else.
 std::string free_entry_text(const std::string& name);
-/// `no key "siez"` with what may have been meant.
+/// `no key "sizze"` with what may have been meant.
 std::string unknown_key_text(const std::string& name);
 
 OrderedJson effects_json();

@@ -22,7 +22,8 @@ std::string path_of(const std::string& script) {
 std::string run_report_script(const std::string& script, const std::vector<std::string>& arguments) {
   const std::string path = path_of(script);
   if (path.empty()) return "the report scripts are not installed";
-  std::vector<std::string> command{"/usr/bin/python3", path};
+  // -B: nothing is written beside the scripts, which may be installed where others own the folder.
+  std::vector<std::string> command{"/usr/bin/python3", "-B", path};
   command.insert(command.end(), arguments.begin(), arguments.end());
   std::fflush(stdout);
   const auto cause = run_to_end("report", command, [](const std::string& line) { std::printf("%s\n", line.c_str()); });

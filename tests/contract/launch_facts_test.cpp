@@ -23,7 +23,7 @@ TEST_F(LauncherFacts, DocOfAKey_TellsItsRange) {
 }
 
 TEST_F(LauncherFacts, DocOfAnUnknownKey_IsExitTwoWithASuggestion) {
-  EXPECT_EQ(run({"doc", "plate.materail"}), 2);
+  EXPECT_EQ(run({"doc", "plate.materal"}), 2);
   EXPECT_NE(errors().find("did you mean \"material\"?"), std::string::npos) << errors();
 }
 

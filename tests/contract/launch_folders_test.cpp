@@ -114,8 +114,20 @@ TEST_F(LauncherFolders, Report_IsOnePageThatNeedsNothingElse) {
   EXPECT_THAT(page, HasSubstr("20 mm"));
   for (const char* outside : {"src=\"http", "href=\"http", "<link", "<script"})
     EXPECT_THAT(page, Not(HasSubstr(outside)));
+  EXPECT_THAT(page, HasSubstr("<svg"));
   ASSERT_EQ(run({"report", "a", "a", "--out", "both.html"}), 0) << errors();
   EXPECT_THAT(read_file(root_ / "both.html"), HasSubstr("Side by side"));
+}
+
+TEST_F(LauncherFolders, ReportWithoutMatplotlib_HasTablesAndSaysWhatIsMissing) {
+  ASSERT_EQ(run({"run", "case.toml", "--out", "a", "--quiet"}), 0) << errors();
+  const std::string folder = (root_ / "a").string();
+  // -S: Python without the folder in which Debian installs matplotlib.
+  const std::string command = "/usr/bin/python3 -B -S " STANDOFF_SOURCE_DIR "/coupling/report/run_report.py --out " +
+                              folder + "/r.html " + folder + " > " + folder + "/said";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_THAT(read_file(root_ / "a/said"), HasSubstr("matplotlib is missing; install it with: apt-get install"));
+  EXPECT_THAT(read_file(root_ / "a/r.html"), HasSubstr("130 N s"));
 }
 
 }  // namespace

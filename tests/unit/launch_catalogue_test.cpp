@@ -40,8 +40,8 @@ TEST(Catalogue_Doc, EverySection_IsFound) {
 }
 
 TEST(Catalogue_Doc, UnknownKey_SuggestsTheNearest) {
-  EXPECT_TRUE(keys_named("plate.siez").empty());
-  EXPECT_THAT(unknown_key_text("plate.siez"), HasSubstr("did you mean \"size\"?"));
+  EXPECT_TRUE(keys_named("plate.sizze").empty());
+  EXPECT_THAT(unknown_key_text("plate.sizze"), HasSubstr("did you mean \"size\"?"));
   EXPECT_THAT(unknown_key_text("stand_of"), HasSubstr("did you mean \"stand_off\"?"));
   EXPECT_THAT(unknown_key_text("qqqqqqqq"), HasSubstr("sections: case, charge"));
 }
