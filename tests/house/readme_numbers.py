@@ -7,7 +7,7 @@
 A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- end -->`. Commands:
 
     result RUN                  one run beside the figures of the case's reference.toml, with its certificate
-    cost   STUDY/cost.csv ...   a row per level of each study, with what was set: mean and spread over seeds, seconds
+    cost   STUDY/cost.csv ...   a row per level of each study, with its name: mean and spread over seeds, seconds
 
 RUN and STUDY are folders runs/CASE/NAME. They are not committed: what a block needs is kept in the folder of the case, run.json,
 reduced, as results/NAME.json and cost.csv as results/NAME.csv (cost.csv where NAME is cost-NUMBER). Blocks are made from
@@ -23,7 +23,7 @@ import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BLOCK = re.compile(r"(<!-- numbers: (\S+) (.+?) -->\n)(.*?)(<!-- end -->)", re.S)
+BLOCK = re.compile(r"^(<!-- numbers: (\S+) ([^\n]+) -->\n)(.*?)(<!-- end -->)", re.S | re.M)
 # A name ends in its unit: factor and text of the unit shown, decimals.
 UNITS = {"_Ns": (1, " N s", 1), "_per_s": (1, " 1/s", 0), "_m": (1e3, " mm", 2), "_K": (1, " K", 1), "_s": (1e6, " us", 1)}
 STATED = {"mm": 1e-3, "m": 1.0, "N s": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "K": 1.0, "1/s": 1.0}
@@ -147,9 +147,10 @@ def cost_row(first, tried):
 def cost(*copies):
     rows = [["level", "C-4 / sand / elements", "runs", *(title for _, title, *_ in COLUMNS), "energy error"]]
     studies = [study(copy) for copy in copies]
-    for head, runs in studies:
+    for copy, (_, runs) in zip(copies, studies):
+        name = "" if copy.stem == "cost" else ", " + copy.stem.replace("_", " ")
         for level in dict.fromkeys(run["level"] for run in runs):
-            rows.append(cost_row(", ".join([level, *head["set"]]), [run for run in runs if run["level"] == level]))
+            rows.append(cost_row(level + name, [run for run in runs if run["level"] == level]))
     places = {name: 3 + i for i, (name, *_) in enumerate(COLUMNS)}
     for name, source, value in references(copies[0]):
         if name in places:
