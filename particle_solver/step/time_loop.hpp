@@ -31,8 +31,8 @@ struct LoopTotals {
   double max_penetration_over_radius = 0.0;
   long deferred_hits = 0;
   long early_releases = 0;  // gas hit loose before the detonation front reached it
-  double step = 0.0;       // s, the last
-  std::string limited_by;  // what limited it
+  double step = 0.0;        // s, the last
+  std::string limited_by;   // what limited it
 };
 
 class TimeLoop {
