@@ -1,5 +1,6 @@
 #include "structure_solver/relaxation/relaxation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -21,8 +22,17 @@ void say(RelaxationResult& result, const std::string& text) {
   result.message += (result.message.empty() ? "" : "; ") + text;
 }
 
-LowestMode find_lowest_mode(StiffnessFactor& stiffness, std::span<const double> v, RelaxationResult& result) {
-  const LowestMode mode = lowest_mode(stiffness, v);
+/// Lowest angular frequency that damping may follow [rad/s]. Kinetic energy falls as exp(-alpha t), alpha = 2 omega:
+/// damping must bring it to the rest ratio within half of the time there is. Near a change of stability the smallest
+/// positive eigenvalue may be next to zero and says nothing of what swings: within a quarter then.
+double slowest_frequency(const RelaxationOptions& options, bool unstable) {
+  const double share = unstable ? 0.25 : 0.5;
+  return 0.5 * std::log(1.0 / options.rest_kinetic_ratio) / (share * options.time_cap);
+}
+
+LowestMode find_lowest_mode(StiffnessFactor& stiffness, std::span<const double> v, const RelaxationOptions& options,
+                            RelaxationResult& result) {
+  LowestMode mode = lowest_mode(stiffness, v);
   result.first_frequency = mode.angular_frequency / (2.0 * std::numbers::pi);
   result.negative_modes = mode.negative_modes;
   if (mode.shift > 0.0)
@@ -31,6 +41,12 @@ LowestMode find_lowest_mode(StiffnessFactor& stiffness, std::span<const double> 
             "the stiffness at the start is not positive definite ({} negative eigenvalue(s)); shifted by {:.3g} "
             "rad2/s2 to find the lowest positive frequency",
             mode.negative_modes, mode.shift));
+  const double slowest = slowest_frequency(options, mode.negative_modes > 0);
+  if (mode.angular_frequency < slowest) {
+    mode.angular_frequency = slowest;
+    say(result, fmt::format("damping follows {:.4g} Hz, or it would not come to rest in time",
+                            slowest / (2.0 * std::numbers::pi)));
+  }
   return mode;
 }
 
@@ -38,7 +54,8 @@ LowestMode find_lowest_mode(StiffnessFactor& stiffness, std::span<const double> 
 /// is left.
 void review(DampedMotion& motion, StiffnessFactor& stiffness, RelaxationResult& result) {
   stiffness.replace(motion.problem().stiffness(motion.displacement()));
-  const double now = lowest_mode(stiffness, motion.velocity()).angular_frequency;
+  const LowestMode mode = lowest_mode(stiffness, motion.velocity());
+  const double now = std::max(mode.angular_frequency, slowest_frequency(motion.options(), mode.negative_modes > 0));
   const double before = 2.0 * std::numbers::pi / motion.period();
   const bool other = std::abs(now - before) > 0.2 * before;
   if (!other) motion.tighten();
@@ -133,7 +150,7 @@ RelaxationResult relax_to_rest(RelaxationProblem& problem, const RelaxationOptio
   std::vector<double> u(size), v(size);
   problem.get_state(u, v);
   StiffnessFactor stiffness(problem.stiffness(u), problem.mass());
-  const LowestMode mode = find_lowest_mode(stiffness, v, result);
+  const LowestMode mode = find_lowest_mode(stiffness, v, options, result);
   DampedMotion motion(problem, options, mode.angular_frequency);
   result.wall_relax = wall.seconds();
 
