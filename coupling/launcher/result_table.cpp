@@ -98,7 +98,9 @@ std::vector<std::string> result_warnings(const OrderedJson& record) {
     if (const auto value = number_at(record, std::string("conservation.") + key); value && !(std::abs(*value) < 0.01))
       warnings.push_back(fmt::format("{} is {}: above 1 % the result is not to be trusted", key, percent(*value)));
   if (const auto value = number_at(record, "conservation.interface_work_error"); value && !(*value < 0.05))
-    warnings.push_back(fmt::format("interface_work_error is {}: choose a shorter coupling window", percent(*value)));
+    warnings.push_back(
+        fmt::format("interface_work_error is {}: raise the particle counts first, then try another coupling.window",
+                    percent(*value)));
   if (const auto value = number_at(record, "conservation.momentum_error"); value && !(*value < 1e-9))
     warnings.push_back(fmt::format("momentum_error is {:.1e}: momentum was lost somewhere", *value));
   return warnings;
