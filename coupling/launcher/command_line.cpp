@@ -35,7 +35,9 @@ void add_overrides(CLI::App& verb, CaseOverrides& overrides, Texts& texts, bool 
   verb.add_option("--set", texts.set, "any key of the case, e.g. --set run.until=\"1 ms\" (may be repeated)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  verb.add_option("--structure", overrides.structure_model, "structural model instead of the case's")
+  verb.add_option(
+          "--structure", overrides.structure_model,
+          "structural model instead of the case's; run also takes exec:COMMAND, another program (proto/README.md)")
       ->type_name("MODEL");
 }
 
@@ -65,6 +67,18 @@ CaseOverrides with_set(CaseOverrides overrides, const Texts& texts) {
   return overrides;
 }
 
+/// "--structure exec:COMMAND" names a program, not a model. Only the command line can: a case is data and starts
+/// nothing.
+void take_structure_command(RunOptions& options) {
+  constexpr std::string_view prefix = "exec:";
+  std::string& model = options.overrides.structure_model;
+  if (!model.starts_with(prefix)) return;
+  options.structure_command = model.substr(prefix.size());
+  model.clear();
+  if (options.structure_command.find_first_not_of(" \t") == std::string::npos)
+    throw Stop(ExitCode::bad_case, "--structure exec: names no program, e.g. --structure \"exec:python3 plate.py\"");
+}
+
 double max_time_of(const Texts& texts) {
   return texts.max_time.empty() ? 0.0 : wall_seconds(texts.max_time);
 }
@@ -85,6 +99,7 @@ Action add_run(CLI::App& app) {
       ->check(CLI::IsMember({"json", "text"}));
   return [options, texts, progress] {
     options->overrides = with_set(options->overrides, *texts);
+    take_structure_command(*options);
     options->max_time = max_time_of(*texts);
     options->json = *progress == "json";
     return run_verb(*options);

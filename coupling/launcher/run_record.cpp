@@ -217,7 +217,7 @@ OrderedJson run_record(const CaseSpec& spec, const RunFacts& facts, const std::m
   record["case"] = spec.name;
   record["level"] = spec.level;
   record["seed"] = spec.run.seed;
-  record["structure_model"] = spec.plate.model;
+  record["structure_model"] = facts.structure_model.empty() ? spec.plate.model : facts.structure_model;
   record["absent"] = OrderedJson::array();
   for (const char* section : {"results", "relaxation", "conservation", "counts"})
     if (merged.contains(section) && !merged[section].is_null())

@@ -28,6 +28,7 @@ struct RunFacts {
   std::optional<int> exit_code;
   std::string reason;
   std::string case_hash;
+  std::string structure_model;  // "" = the case's
   double wall_s = 0.0;
   int particle_threads = 1, structure_threads = 1;
   std::optional<ClockEvent> clock;

@@ -38,8 +38,15 @@ ChildCommand participant(const std::string& name, const std::string& folder, con
           thread_environment(threads)};
 }
 
-RunFacts initial_facts(const CaseRead& read, const CostPrediction& plan) {
+/// A program of the user's, by the shell's rules of quoting; it gets the options that our own program gets.
+void replace_program(ChildCommand& command, const std::string& words) {
+  command.argv[0] = words;
+  command.argv.insert(command.argv.begin(), {"/bin/sh", "-c", "exec " + words + " \"$@\""});
+}
+
+RunFacts initial_facts(const RunOptions& options, const CaseRead& read, const CostPrediction& plan) {
   RunFacts facts;
+  if (!options.structure_command.empty()) facts.structure_model = "exec:" + options.structure_command;
   facts.case_hash = read.hash;
   facts.particle_threads = plan.particle_threads;
   facts.structure_threads = plan.structure_threads;
@@ -57,7 +64,7 @@ RunSession::RunSession(const RunOptions& options, const CaseRead& read, std::str
       folder_(std::move(folder)),
       plan_(
           predict_cost(read.spec, usable_cores(), options.threads.particle_count(), options.threads.structure_count())),
-      facts_(initial_facts(read, plan_)),
+      facts_(initial_facts(options, read, plan_)),
       log_(folder_),
       histories_(folder_ + "/histories.csv"),
       table_(read.spec.observe.interval, sample_sources),
@@ -94,7 +101,9 @@ void RunSession::start_processes() {
         fmt::format("{:.17g}", read_.spec.run.until), "--scheme",
         coupling.scheme == Scheme::parallel ? "parallel" : "serial", "--window", window_argument(coupling)},
        thread_environment(1)});
-  supervisor_.start(participant("structure", folder_, endpoint, token, plan_.structure_threads));
+  ChildCommand structure = participant("structure", folder_, endpoint, token, plan_.structure_threads);
+  if (!options_.structure_command.empty()) replace_program(structure, options_.structure_command);
+  supervisor_.start(structure);
   supervisor_.start(participant("particles", folder_, endpoint, token, plan_.particle_threads));
 }
 

@@ -16,6 +16,7 @@ struct ThreadOptions {
 struct RunOptions {
   std::string case_path;
   CaseOverrides overrides;
+  std::string structure_command;  // --structure exec:COMMAND: a program that takes the place of standoff-structure
   std::string out;
   ThreadOptions threads;
   double max_time = 0.0;  // s of wall clock, 0 = none

@@ -28,7 +28,8 @@ std::pair<std::string, std::string> objection(SessionTurn& turn, const Envelope&
       return {fmt::format("\"{}\" already is the {} side", peer.name, role_name(peer.role)),
               "a run has one load side and one structure"};
   }
-  if (!state.peers.empty() && hello.case_hash != state.case_hash)
+  // A program that does not read the case says nothing about it.
+  if (!state.case_hash.empty() && !hello.case_hash.empty() && hello.case_hash != state.case_hash)
     return {fmt::format("case hash {} differs from {} of \"{}\"", hello.case_hash, state.case_hash,
                         state.peers.front().name),
             "start both with the same case, level and --set options"};
@@ -48,7 +49,7 @@ void take_hello(SessionTurn& turn, const std::string& address, const Envelope& e
   const auto [reason, remedy] = objection(turn, envelope, hello);
   if (!reason.empty()) return turn.reject(address, hello.name, ExitCode::bad_case, reason, remedy);
   SessionState& state = turn.state;
-  if (state.peers.empty()) state.case_hash = hello.case_hash;
+  if (state.case_hash.empty()) state.case_hash = hello.case_hash;
   Peer peer;
   peer.address = address;
   peer.name = hello.name;

@@ -13,7 +13,7 @@ class VirtualSession {
   explicit VirtualSession(SessionRules rules = default_rules()) : state(open_session(std::move(rules), 0.0)) {}
   static SessionRules default_rules() {
     SessionRules rules;
-    rules.token = "t";
+    rules.token = std::string("t");  // assigning the literal trips -Wrestrict of gcc 12
     rules.until = 1.0;
     rules.window = {WindowRule::Kind::fixed, 0.25};  // four windows
     return rules;

@@ -59,6 +59,19 @@ def judge_bare(folder):
     expect("bare: impulse 120 to 155 Ns", 120.0 < impulse < 155.0, f"{impulse:.1f} Ns")
 
 
+def judge_third_party(folder):
+    program = f"exec:{ROOT}/tests/contract/python/membrane.py"
+    record = run("borvik_2011/dry_150mm", folder / "membrane", "--level", "coarse", "--structure", program)
+    expect("membrane in Python: named in run.json", record["structure_model"] == program)
+    # Rounding only, as for our own models.
+    expect("membrane in Python: momentum error < 1e-9", record["conservation"]["momentum_error"] < 1e-9,
+           f"{record['conservation']['momentum_error']:.2e}")
+    # Velocity Verlet on a linear net: the energy of an undamped oscillation is kept to (omega dt)^2 of its stiffest mode.
+    expect("membrane in Python: energy error of the structure < 1 %",
+           record["conservation"]["energy_error_structure"] < 0.01,
+           f"{record['conservation']['energy_error_structure']:.2e}")
+
+
 def judge_repeatability(folder):
     short = ["--level", "coarse", "--set", "run.until=0.3 ms", "--set", "run.settle=false"]
     hashes = [run("borvik_2011/dry_150mm", folder / f"hash{i}", *short, "--threads", threads)["provenance"]["state_hash"]
@@ -97,7 +110,7 @@ def judge_paraview(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for judge in (judge_mistakes, judge_dry, judge_bare, judge_repeatability, judge_paraview):
+        for judge in (judge_mistakes, judge_dry, judge_bare, judge_third_party, judge_repeatability, judge_paraview):
             print(judge.__name__)
             judge(folder)
     print(f"{len(failures)} failed")
