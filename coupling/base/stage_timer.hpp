@@ -33,6 +33,14 @@ class StageTimers {
     rows_[static_cast<std::size_t>(stage)].seconds += seconds;
     ++rows_[static_cast<std::size_t>(stage)].calls;
   }
+  void reset() {
+    for (Row& row : rows_) row.seconds = 0.0, row.calls = 0;
+  }
+  /// Seconds and calls; the stages are those that were added.
+  template <class Archive>
+  void archive(Archive& a) {
+    for (Row& row : rows_) a(row.seconds, row.calls);
+  }
 
  private:
   std::vector<Row> rows_;

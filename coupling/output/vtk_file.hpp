@@ -38,6 +38,11 @@ class PvdSeries {
   /// `folder` is created; pieces are folder/NAME_0000.EXT, the series folder/NAME.pvd.
   PvdSeries(std::string folder, std::string name, std::string extension);
   void add(double time, const std::string& piece_text);
+  /// Times of the pieces so far: a series that is continued overwrites what was written after it was saved.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(times_);
+  }
 
  private:
   std::string folder_, name_, extension_;

@@ -25,6 +25,11 @@ class ParticleBooks {
   NamedValues progress(double time, long window, long windows) const;
   /// Nested as in run.json.
   nlohmann::json report(const Participant::Times& times) const;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(ledger_);
+    if (shock_) a(*shock_);
+  }
 
  private:
   double front_radius() const;

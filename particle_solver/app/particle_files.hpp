@@ -17,6 +17,10 @@ class ParticleFiles {
   void frame(double time, const GasState& gas, const SandState& sand);
   /// Specific impulse of every plate node, full plate: mirrored if a quarter was simulated.
   void impulse_map(const SurfaceSheet& sheet, bool quarter) const;
+  template <class Archive>
+  void archive(Archive& a) {
+    if (series_) a(*series_);
+  }
 
  private:
   std::string folder_;

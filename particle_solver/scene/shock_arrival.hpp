@@ -16,6 +16,11 @@ class ShockArrival {
   void observe(const SandState& sand, double time);
   /// Time of arrival [s], or NaN if nothing moved yet.
   double time() const;
+  /// The marks are those of the constructor.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(times_, velocities_, highest_);
+  }
 
  private:
   Vec3 centre_;

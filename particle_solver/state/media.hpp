@@ -1,6 +1,6 @@
 #pragma once
 // The particles of a scene as arrays, one struct a medium. No physics. Order in the arrays may change (sorting,
-// removal); `id` stays with its particle and is what random numbers and ties are keyed by.
+// removal); `id` stays with its particle and is what random numbers and ties are keyed by. `archive` lists everything.
 //
 // Inside a gas sub-step of length h a collision at time t in [0, h] changes a velocity and shifts the *starting point*
 // back, x -= (v_new - v_old) t, so that x + v h is where the particle ends; gas_drift then does x += v h for
@@ -28,6 +28,11 @@ struct GasState {
   std::vector<std::uint32_t> id;
   std::size_t size() const { return position.size(); }
   bool all_released() const { return released.empty(); }
+  template <class Archive>
+  void archive(Archive& a) {
+    a(mass, radius, gamma, position, velocity, internal_energy, release_time, released, latent_impulse, plate_rebound,
+      id);
+  }
 };
 
 /// Grains: rigid spheres without rotation. Velocity Verlet: half kick, drift (with gas hits), forces, half kick.
@@ -42,6 +47,10 @@ struct SandState {
   std::size_t size() const { return position.size(); }
   double radius_of(std::size_t i) const { return grain_radius.empty() ? radius : grain_radius[i]; }
   double mass_of(std::size_t i) const { return grain_mass.empty() ? mass : grain_mass[i]; }
+  template <class Archive>
+  void archive(Archive& a) {
+    a(radius, mass, grain_radius, grain_mass, position, velocity, force, plate_rebound, id);
+  }
 };
 
 /// Mirror planes of a quarter model, x = 0 and y = 0: a sphere touches its own image when its centre is one radius

@@ -179,6 +179,17 @@ void SurfaceSheet::collect_load(double window, SurfaceLoad& load) {
   std::fill(window_impulse_.begin(), window_impulse_.end(), Vec3{});
 }
 
+void SurfaceSheet::throw_unless_sized(std::size_t reference_nodes) const {
+  const std::size_t nodes = mesh_.position.size();
+  const bool fits = reference_nodes == nodes && position_.size() == nodes && velocity_.size() == nodes &&
+                    window_impulse_.size() == plate_nodes_ && pending_.size() == plate_nodes_ &&
+                    node_impulse_.size() == plate_nodes_;
+  if (!fits)
+    throw Stop(ExitCode::checkpoint_incompatible, "the saved surface has " + std::to_string(position_.size()) +
+                                                      " nodes, this case " + std::to_string(nodes) +
+                                                      ": it was saved with another mesh");
+}
+
 std::size_t SurfaceSheet::plate_nodes() const {
   return plate_nodes_;
 }

@@ -96,6 +96,19 @@ class SurfaceSheet {
   /// No point of the sheet is below this z during the sub-step.
   double lowest(double t_to) const;
 
+  /// What outlives a sub-step; the mesh is that of the constructor. The search is built anew where it was built last,
+  /// so that the same faces are looked at in the same order.
+  template <class Archive>
+  void archive(Archive& a) {
+    std::vector<Vec3> reference(search_.reference().begin(), search_.reference().end());
+    a(position_, velocity_, window_impulse_, pending_, node_impulse_, total_impulse_, surround_impulse_, total_work_);
+    a(moved_, speed_, top_, rise_, bottom_, sink_, reference);
+    if constexpr (Archive::reading) {
+      throw_unless_sized(reference.size());
+      search_.rebuild(reference);
+    }
+  }
+
  private:
   struct Answer {
     Vec3 velocity, inverse_mass;  // m/s; 1/kg by axis
@@ -106,6 +119,8 @@ class SurfaceSheet {
   SheetPoint seen(const SheetFoot& foot) const;
   void give(std::int32_t face, const std::array<double, 4>& weight, const Vec3& impulse, double t, double work);
   void renew_bounds();
+  /// A saved sheet that has another number of nodes than the mesh: Stop with code 6.
+  void throw_unless_sized(std::size_t reference_nodes) const;
 
   SurfaceMesh mesh_;
   SurfaceSearch search_;

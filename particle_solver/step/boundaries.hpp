@@ -41,6 +41,10 @@ class Boundaries {
   /// `gas`, `sand`, `sheet` may be null. Call when nobody holds indices into the arrays.
   const BoundaryChanges& run(GasState* gas, SandState* sand, const SurfaceSheet* sheet, BoundaryBooks& books);
   const BoundaryTotals& totals() const { return totals_; }
+  template <class Archive>
+  void archive(Archive& a) {
+    a(totals_);
+  }
 
  private:
   struct Limits {

@@ -48,6 +48,11 @@ struct SandBooks {
   int most_contacts = 0;                 // on one grain now
   Vec3 virial;                           // J, periodic cells only: stress along an axis = virial / volume
   long list_builds = 0;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(elastic_energy, friction_loss, damping_loss, max_overlap_over_radius, overlap_over_radius, mirror_impulse);
+    a(coordination, most_contacts, virial, list_builds);
+  }
 };
 
 /// What a restart needs beside SandState to go on with the same bits; arrays in the order of SandState.
@@ -58,6 +63,10 @@ struct SandPairsMemory {
   double skin = 0.0;  // m
   long calls_since_list = 0;
   Vec3 mirror_force;  // N on the planes at the last call
+  template <class Archive>
+  void archive(Archive& a) {
+    a(list_position, springs, books, skin, calls_since_list, mirror_force);
+  }
 };
 
 class SandPairs {

@@ -33,6 +33,11 @@ struct LoopTotals {
   long early_releases = 0;  // gas hit loose before the detonation front reached it
   double step = 0.0;        // s, the last
   std::string limited_by;   // what limited it
+  template <class Archive>
+  void archive(Archive& a) {
+    a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, incoming, contact_loss, contact_elastic);
+    a(max_penetration_over_radius, deferred_hits, early_releases, step, limited_by);
+  }
 };
 
 class TimeLoop {
@@ -50,6 +55,7 @@ class TimeLoop {
   const BoundaryTotals& boundary_totals() const { return boundaries_.totals(); }
   const SandBooks& sand_books() const;
   const StageTimers& timers() const { return timers_; }
+  void forget_times() { timers_.reset(); }
   ParticleEnergy energy() const;
   /// Everything that carries or took momentum: zero change means it is conserved.
   Vec3 momentum_everywhere() const;
@@ -57,6 +63,19 @@ class TimeLoop {
   double impulse_scale() const;
   /// Sum over particles of the momentum towards the charge after their last contact with the plate, kg m/s.
   double rebound() const;
+
+  /// Everything that outlives a window, the scene's particles and sheet included. Read into a loop of the same case and
+  /// surface, it goes on with the same bits, whatever the number of threads.
+  template <class Archive>
+  void archive(Archive& a) {
+    a(scene_.gas, scene_.sand, scene_.sheet, boundaries_, books_, totals_, last_gas_, gas_step_, gas_step_cap_,
+      timers_);
+    if (!pairs_) return;
+    SandPairsMemory memory;
+    if constexpr (!Archive::reading) memory = pairs_->memory(scene_.sand);
+    a(memory);
+    if constexpr (Archive::reading) pairs_->restore(scene_.sand, memory);
+  }
 
  private:
   using Stage = std::function<void(double time, double h)>;

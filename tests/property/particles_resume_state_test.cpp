@@ -1,0 +1,142 @@
+// Law: a particle side that is saved at the end of any window and read into a freshly built scene goes on with the same
+// bits, also with another number of threads: every number that outlives a window is in the archive. Compared are the
+// bytes of the whole state at the end, so no tolerance. Only the seconds of the stages differ; they are left out.
+#include <gtest/gtest.h>
+
+#include "coupling/base/state_archive.hpp"
+#include "particle_solver/step/time_loop.hpp"
+#include "tests/unit/case_folder.hpp"
+#include "tests/unit/particles_surface_builders.hpp"
+
+namespace standoff::particles {
+namespace {
+
+/// A charge in a shell of sand whose outside touches the plate: hits on the plate from the first window on.
+CaseSpec buried_charge(const std::string& soil) {
+  standoff::test::CaseFolder folder;
+  folder.write("case.toml", R"([charge]
+explosive = "c4"
+mass = "150 g"
+radius = "28.2 mm"
+particles = 800
+[plate]
+material = "al6xn"
+size = ["406 mm", "406 mm", "3.4 mm"]
+[run]
+stand_off = "76.2 mm"
+until = "0.3 ms"
+[soil]
+)" + soil);
+  const CaseRead read = folder.read();
+  EXPECT_TRUE(read.errors.empty()) << standoff::test::all_errors(read);
+  return read.spec;
+}
+
+constexpr const char* no_soil = "kind = \"none\"\n";
+constexpr const char* dry_soil =
+    "kind = \"dry\"\ninner_radius = \"30 mm\"\nouter_radius = \"76.2 mm\"\nparticles = 2000\n";
+constexpr const char* wet_soil =
+    "kind = \"wet\"\ninner_radius = \"30 mm\"\nouter_radius = \"76.2 mm\"\nparticles = 1000\n";
+
+struct Side {
+  Side(const CaseSpec& spec, int threads)
+      : mesh(test::sheet_mesh(8, 0.0, 0.203, 1e-2,
+                              [](double x, double y) {
+                                return Vec3{x, y, 0.0};
+                              })),
+        motion(test::at_rest(mesh)),
+        scene(build_scene(spec, mesh, threads)),
+        loop(spec, scene, threads) {}
+
+  /// Windows [first, last); the surface gives way at a steady pace, so that the local answer matters too.
+  void run(int first, int last) {
+    for (int k = first; k < last; ++k) {
+      for (std::size_t n = 0; n < motion.position.size(); ++n) {
+        motion.velocity[n] = {0.0, 0.0, -20.0};
+        motion.position[n] = mesh.position[n] + Vec3{0.0, 0.0, -20.0 * window * k};
+      }
+      scene.sheet.begin_window(motion, true);
+      loop.advance(window * k, window);
+      scene.sheet.collect_load(window, load);
+    }
+  }
+  std::string saved() {
+    StateWriter writer;
+    writer(loop);
+    return writer.bytes();
+  }
+  void read(const std::string& bytes) {
+    StateReader reader(bytes);
+    reader(loop);
+    EXPECT_TRUE(reader.at_end());
+  }
+  /// The state without the seconds of its stages, which are the only thing that differs between two runs.
+  std::string state() {
+    loop.forget_times();
+    return saved();
+  }
+
+  static constexpr double window = 2e-6;  // s
+  SurfaceMesh mesh;
+  SurfaceMotion motion;
+  Scene scene;
+  TimeLoop loop;
+  SurfaceLoad load;
+};
+
+void expect_same_bits(const CaseSpec& spec, int stop_at, int end, int threads) {
+  Side whole(spec, 1);
+  whole.run(0, stop_at);
+  const std::string saved = whole.saved();
+  whole.run(stop_at, end);
+  Side resumed(spec, threads);
+  resumed.read(saved);
+  resumed.run(stop_at, end);
+  EXPECT_EQ(resumed.state() == whole.state(), true) << "stopped after " << stop_at << " windows";
+  EXPECT_EQ(resumed.load.force, whole.load.force);
+  EXPECT_NE(whole.scene.sheet.total_impulse().z, 0.0) << "the plate must have been hit";
+}
+
+TEST(ResumedParticles, StoppedWhileTheChargeDetonates_GoOnWithTheSameBits) {
+  const CaseSpec spec = buried_charge(dry_soil);
+  Side probe(spec, 1);
+  probe.run(0, 3);
+  EXPECT_FALSE(probe.scene.gas.all_released()) << "6 us: the front is still in the charge";
+  EXPECT_GT(probe.loop.totals().sub_steps, 0);
+  expect_same_bits(spec, 3, 12, 2);
+}
+
+TEST(ResumedParticles, StoppedWithSlidingContacts_GoOnWithTheSameBits) {
+  const CaseSpec spec = buried_charge(dry_soil);
+  Side probe(spec, 1);
+  probe.run(0, 20);
+  EXPECT_GT(probe.loop.sand_books().friction_loss, 0.0);
+  EXPECT_GT(probe.loop.sand_books().elastic_energy, 0.0);
+  expect_same_bits(spec, 20, 40, 2);
+}
+
+TEST(ResumedParticles, WetSandWithUnequalGrains_GoesOnWithTheSameBits) {
+  expect_same_bits(buried_charge(wet_soil), 15, 30, 2);
+}
+
+TEST(ResumedParticles, BareChargeOnThePlate_GoesOnWithTheSameBits) {
+  expect_same_bits(buried_charge(no_soil), 30, 60, 1);
+}
+
+TEST(ResumedParticles, StateOfAnotherSurface_IsRefused) {
+  const CaseSpec spec = buried_charge(no_soil);
+  Side side(spec, 1);
+  const SurfaceMesh other = test::sheet_mesh(4, 0.0, 0.203, 1e-2, [](double x, double y) { return Vec3{x, y, 0.0}; });
+  Scene scene = build_scene(spec, other, 1);
+  TimeLoop loop(spec, scene, 1);
+  StateReader reader(side.saved());
+  try {
+    reader(loop);
+    FAIL() << "a sheet of 81 nodes was read as one of 25";
+  } catch (const Stop& stop) {
+    EXPECT_EQ(stop.code(), ExitCode::checkpoint_incompatible);
+  }
+}
+
+}  // namespace
+}  // namespace standoff::particles
