@@ -1,15 +1,39 @@
 #include "coupling/base/stop.hpp"
+#include "coupling/case/near_word.hpp"
 #include "structure_solver/models/plate_hex64.hpp"
 #include "structure_solver/models/rigid_plate.hpp"
 
 namespace standoff::structure {
+namespace {
+
+using Make = std::unique_ptr<StructuralModel> (*)(const CaseSpec&, int threads);
+struct Entry {
+  const char* name;
+  Make make;
+};
+
+constexpr Entry registry[] = {
+    {"plate_hex64",
+     [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
+       return std::make_unique<PlateHex64>(spec, threads);
+     }},
+    {"rigid_plate",
+     [](const CaseSpec& spec, int) -> std::unique_ptr<StructuralModel> { return std::make_unique<RigidPlate>(spec); }},
+};
+
+}  // namespace
+
+std::vector<std::string> structural_model_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : registry) names.emplace_back(entry.name);
+  return names;
+}
 
 std::unique_ptr<StructuralModel> make_structural_model(const CaseSpec& spec, int threads) {
-  const std::string& name = spec.plate.model;
-  if (name == "plate_hex64") return std::make_unique<PlateHex64>(spec, threads);
-  if (name == "rigid_plate") return std::make_unique<RigidPlate>(spec);
-  throw Stop(ExitCode::bad_case,
-             "plate.model = \"" + name + "\" does not exist\n  models here: plate_hex64, rigid_plate");
+  for (const Entry& entry : registry)
+    if (spec.plate.model == entry.name) return entry.make(spec, threads);
+  throw Stop(ExitCode::bad_case, "plate.model = \"" + spec.plate.model + "\" does not exist\n  " +
+                                     did_you_mean(spec.plate.model, structural_model_names(), "models"));
 }
 
 }  // namespace standoff::structure

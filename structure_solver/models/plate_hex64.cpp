@@ -100,6 +100,12 @@ StructureExtremes PlateHex64::extremes() const {
   return x;
 }
 
+double PlateHex64::mass() const {
+  double sum = 0.0;
+  for (const double m : plate_.state().mass) sum += m;
+  return sum;
+}
+
 void PlateHex64::add_to(StateHash& hash) const {
   hash.add(std::span<const Vec3>(plate_.state().u));
   hash.add(std::span<const Vec3>(plate_.state().v));

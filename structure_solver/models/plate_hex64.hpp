@@ -22,6 +22,13 @@ class PlateHex64 final : public StructuralModel {
   std::vector<ProfilePoint> profile() const override { return probes_.profile(plate_.state().u); }
   StructureFrame frame() const override { return plate_frame(plate_); }
   void add_to(StateHash& hash) const override;
+  void save(StateWriter& writer) const override { writer(*this); }
+  void restore(StateReader& reader) override { reader(*this); }
+  double mass() const override;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(plate_, strain_mark_, mark_time_, max_strain_rate_);
+  }
   long elements() const override { return plate_.mesh().element_count(); }
   const StageTimers& timers() const override { return timers_; }
   RelaxationProblem* relaxation() override { return &relaxation_; }

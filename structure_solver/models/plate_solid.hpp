@@ -1,6 +1,7 @@
 #pragma once
 // The plate itself: mesh, motion, history and books, with the explicit step. plate_hex64.hpp shows it to the coupling,
 // plate_relaxation.hpp to the relaxation.
+#include "coupling/base/stop.hpp"
 #include "coupling/case/case_spec.hpp"
 #include "structure_solver/mesh/surface_map.hpp"
 #include "structure_solver/step/central_difference.hpp"
@@ -40,6 +41,16 @@ class PlateSolid {
   void set_motion(std::span<const Vec3> u, std::span<const Vec3> v);
   /// Makes the state at u the committed one and books its inelastic work.
   void commit(std::span<const Vec3> u, double dt);
+
+  template <class Archive>
+  void archive(Archive& a) {
+    const std::size_t nodes = state_.u.size(), history = forces_.history_bytes();
+    a(state_, forces_, books_, elastic_, time_, stable_step_, last_dt_, steps_);
+    if (state_.u.size() != nodes || state_.v.size() != nodes || forces_.history_bytes() != history)
+      throw Stop(ExitCode::checkpoint_incompatible,
+                 "structure: the saved plate has " + std::to_string(state_.u.size()) + " nodes, this one " +
+                     std::to_string(nodes) + ", or other effects\n  a state fits the case that wrote it");
+  }
 
  private:
   void throw_if_broken(const ForceSums& sums) const;

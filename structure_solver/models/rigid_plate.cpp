@@ -11,6 +11,7 @@ RigidPlate::RigidPlate(const CaseSpec& spec) : mirrored_(spec.run.quarter_symmet
   surface_ = plate_surface(mesh);
   line_nodes_ = mesh.nodes[0];
   const MaterialSpec& m = spec.plate.material;
+  mass_ = m.density * spec.plate.size.x * spec.plate.size.y * spec.plate.size.z / spec.copies();
   stable_step_ = spec.plate.size.z / std::sqrt(m.youngs_modulus / m.density);  // one thickness transit
 }
 

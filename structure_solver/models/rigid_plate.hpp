@@ -25,12 +25,20 @@ class RigidPlate final : public StructuralModel {
   std::vector<ProfilePoint> profile() const override;
   StructureFrame frame() const override;
   void add_to(StateHash& hash) const override { hash.add(impulse_); }
+  void save(StateWriter& writer) const override { writer(*this); }
+  void restore(StateReader& reader) override { reader(*this); }
+  double mass() const override { return mass_; }
+  template <class Archive>
+  void archive(Archive& a) {
+    a(time_, force_, impulse_);
+  }
   long elements() const override { return 0; }
   const StageTimers& timers() const override { return timers_; }
 
  private:
   SurfaceMesh surface_;
   bool mirrored_;
+  double mass_;         // kg
   int line_nodes_;      // surface nodes along x
   double stable_step_;  // s; nothing can become unstable, but the window rule asks for a time
   double time_ = 0.0;

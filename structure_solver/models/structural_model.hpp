@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "coupling/base/stage_timer.hpp"
+#include "coupling/base/state_archive.hpp"
 #include "coupling/base/state_hash.hpp"
 #include "coupling/case/case_spec.hpp"
 #include "coupling/contract/surface.hpp"
@@ -76,6 +77,11 @@ class StructuralModel {
   virtual std::vector<ProfilePoint> profile() const = 0;
   virtual StructureFrame frame() const = 0;
   virtual void add_to(StateHash& hash) const = 0;
+  /// All that outlives a step, and back into a model built from the same case: what follows has the same bits.
+  virtual void save(StateWriter& writer) const = 0;
+  virtual void restore(StateReader& reader) = 0;
+  /// Mass that moves under the load, clamped nodes included [kg].
+  virtual double mass() const = 0;
   virtual long elements() const = 0;  // simulated
   /// Stages external_force, internal_force, integrate with their seconds.
   virtual const StageTimers& timers() const = 0;
@@ -84,6 +90,8 @@ class StructuralModel {
   virtual RelaxationProblem* relaxation() { return nullptr; }
 };
 
+/// Every model by name.
+std::vector<std::string> structural_model_names();
 /// Builds the model named by plate.model; throws Stop(bad_case) for an unknown name, listing the known ones.
 std::unique_ptr<StructuralModel> make_structural_model(const CaseSpec& spec, int threads);
 

@@ -17,6 +17,11 @@ struct NodalState {
   std::vector<Vec3> internal, external;  // N: resisting force of the elements; load
   std::vector<Vec3> inverse_mass;        // 1/kg, zero for a fixed component
   std::vector<double> mass;              // kg
+
+  template <class Archive>
+  void archive(Archive& a) {
+    a(u, v, internal, external);  // masses follow from the case
+  }
 };
 
 constexpr Vec3 by_component(const Vec3& a, const Vec3& b) {

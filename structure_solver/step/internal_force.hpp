@@ -52,6 +52,10 @@ class InternalForce {
   const MetalParameters& metal() const { return metal_; }
   std::size_t history_bytes() const { return history_.size() * sizeof(Pack4); }
   void add_to(StateHash& hash) const;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(history_);  // forces of the elements are made anew each step
+  }
 
   using ElementMatrix = std::array<double, 192 * 192>;  // [3 a + i][3 b + j], symmetric
   /// Elastic tangent of up to four elements of a batch at u, plastic flow frozen, by central differences of the force.

@@ -1,0 +1,77 @@
+#pragma once
+// The contract suite of structural models: one list of laws, run on every model of the registry.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "coupling/base/counter_random.hpp"
+#include "structure_solver/models/structural_model.hpp"
+#include "tests/unit/structure_plate_case.hpp"
+
+namespace standoff::structure::testing {
+
+inline CaseSpec model_case(const std::string& name, bool quarter = true, const char* edges = "clamped") {
+  CaseSpec spec = plate_case(4, quarter);
+  spec.plate.model = name;
+  spec.plate.edges = edges;
+  spec.run.until = 1e-3;
+  return spec;
+}
+
+/// The area that belongs to each surface node, as a vector along the normal of the loaded side: a quarter of each quad.
+inline std::vector<Vec3> node_areas(const SurfaceMesh& surface) {
+  std::vector<Vec3> area(surface.position.size());
+  for (const auto& q : surface.quads) {
+    const auto at = [&](std::size_t i) { return surface.position[static_cast<std::size_t>(q[i])]; };
+    const Vec3 whole = 0.5 * cross(at(2) - at(0), at(3) - at(1));
+    for (const std::int32_t node : q) area[static_cast<std::size_t>(node)] += 0.25 * whole;
+  }
+  return area;
+}
+
+inline std::vector<Vec3> pressure_on(const SurfaceMesh& surface, double pressure) {
+  std::vector<Vec3> force = node_areas(surface);
+  for (Vec3& f : force) f = -pressure * f;
+  return force;
+}
+
+/// Uneven hits on random quads, others every five steps, hard enough that metal flows.
+class Hammer {
+ public:
+  void strike(StructuralModel& model, int steps) {
+    const SurfaceMesh& surface = model.surface();
+    for (int i = 0; i < steps; ++i, ++count_) {
+      if (count_ % 5 == 0) {
+        std::vector<Vec3> force(surface.position.size());
+        for (int hit = 0; hit < 4; ++hit) {
+          const auto quad = static_cast<std::size_t>(random_.uniform() * static_cast<double>(surface.quads.size()));
+          for (const std::int32_t node : surface.quads[quad])
+            force[static_cast<std::size_t>(node)] +=
+                Vec3{4e3 * random_.normal(), 4e3 * random_.normal(), -4e4 * random_.uniform()};
+        }
+        model.set_surface_force(force);
+      }
+      model.step(model.stable_step());
+    }
+  }
+
+ private:
+  CounterRandom random_{7, RandomUse::test, 1};
+  long count_ = 0;
+};
+
+inline std::uint64_t hash_of(const StructuralModel& model) {
+  StateHash hash;
+  model.add_to(hash);
+  return hash.value();
+}
+
+inline std::string saved(const StructuralModel& model) {
+  StateWriter writer;
+  model.save(writer);
+  return writer.bytes();
+}
+
+class StructureModel : public ::testing::TestWithParam<std::string> {};
+
+}  // namespace standoff::structure::testing
