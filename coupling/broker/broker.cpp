@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 
+#include "coupling/broker/checkpoint_store.hpp"
 #include "coupling/broker/event_lines.hpp"
 #include "coupling/contract/process_watch.hpp"
 #include "coupling/transport/codec.hpp"
@@ -28,6 +29,8 @@ class BrokerLoop {
         lock_(endpoint_),
         router_(endpoint_),
         state_(open_session(options.rules, now())) {
+    if (const std::string& folder = options.rules.checkpoint.folder; !folder.empty())
+      checkpoints_.emplace(folder, options.build);
     options_.print(listening_line(router_.endpoint()));
   }
 
@@ -77,6 +80,7 @@ class BrokerLoop {
   std::optional<SessionEvent> carry_out(SessionAction& action) {
     if (auto* send = std::get_if<Send>(&action)) return deliver(*send);
     if (auto* announce = std::get_if<Announce>(&action)) return print(announce->what);
+    if (auto* half = std::get_if<Commit>(&action)) return commit(half->state);
     if (!code_) code_ = std::get<Finish>(action).code;
     return std::nullopt;
   }
@@ -91,6 +95,15 @@ class BrokerLoop {
         break;
     }
     return Malformed{send.address, "it does not read its messages"};
+  }
+
+  SessionEvent commit(const InterfaceState& state) {
+    try {
+      checkpoints_->commit(state);
+      return Committed{};
+    } catch (const Stop& stop) {
+      return Committed{stop.what()};
+    }
   }
 
   std::optional<SessionEvent> print(const Announcement& what) {
@@ -110,6 +123,7 @@ class BrokerLoop {
   const EndpointLock lock_;
   Router router_;
   SessionState state_;
+  std::optional<CheckpointStore> checkpoints_;
   double ticked_ = 0.0;
   std::optional<ExitCode> code_;
 };

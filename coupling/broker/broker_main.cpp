@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +12,7 @@
 
 #include "coupling/base/stop.hpp"
 #include "coupling/broker/broker.hpp"
+#include "coupling/broker/checkpoint_store.hpp"
 #include "coupling/contract/process_watch.hpp"
 
 namespace {
@@ -19,7 +21,7 @@ using namespace standoff;
 
 struct CommandLine {
   BrokerOptions broker;
-  std::string scheme = "parallel", window = "auto";
+  std::string scheme = "parallel", window = "auto", resume;
 };
 
 WindowRule parse_window(const std::string& text) {
@@ -70,6 +72,24 @@ void declare(CLI::App& app, CommandLine& line) {
   app.add_flag("--insecure", line.broker.insecure, "allow an address other machines can reach, unencrypted");
 }
 
+void declare_checkpoints(CLI::App& app, CommandLine& line) {
+  CheckpointRule& rule = line.broker.rules.checkpoint;
+  app.add_option("--checkpoint", rule.folder, "folder for checkpoints; without it there are none");
+  app.add_option("--checkpoint-every", rule.every, "s of wall clock between checkpoints; 0: not by time")
+      ->check(seconds_check(true))
+      ->capture_default_str();
+  app.add_option("--checkpoint-windows", rule.every_windows, "windows between checkpoints; 0: not by count")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--build", line.broker.build, "what the checkpoints say of the program that wrote them");
+  app.add_option("--resume", line.resume, "checkpoint to go on from, a folder window-NUMBER");
+}
+
+/// Participants may run in another folder.
+std::string absolute(const std::string& path) {
+  return path.empty() ? "" : std::filesystem::absolute(path).lexically_normal().string();
+}
+
 void print_line(const std::string& line) {
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
@@ -81,6 +101,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Window clock and referee of a coupled Standoff run"};
   CommandLine line;
   declare(app, line);
+  declare_checkpoints(app, line);
   try {
     app.parse(argc, argv);
     line.broker.rules.window = parse_window(line.window);
@@ -89,6 +110,8 @@ int main(int argc, char** argv) {
     Deadlines& limit = line.broker.rules.deadlines;
     limit.beat_interval = std::min(limit.beat_interval, limit.beat / 4.0);
     line.broker.print = print_line;
+    line.broker.rules.checkpoint.folder = absolute(line.broker.rules.checkpoint.folder);
+    if (!line.resume.empty()) line.broker.rules.resume = read_checkpoint(absolute(line.resume));
     watch_process();
     return run_broker(line.broker);
   } catch (const CLI::ParseError& error) {

@@ -63,6 +63,10 @@ struct ToJson {
             {"work_given_J", e.given.work},
             {"work_received_J", e.received.work}};
   }
+  Json operator()(const announce::Saving& e) const { return {{"event", "saving"}, {"reason", e.reason}}; }
+  Json operator()(const announce::Checkpoint& e) const {
+    return {{"event", "checkpoint"}, {"windows", e.windows}, {"time_s", e.time}, {"bytes", e.bytes}};
+  }
   Json operator()(const announce::Failed& e) const {
     return {{"event", "failed"},
             {"origin", e.failure.origin},

@@ -57,7 +57,8 @@ void Link::join() {
                                                          what, options_.endpoint, options_.join_deadline));
   };
   while (!dealer_.connected()) wait_on("no broker answered");
-  post(message::Hello{options_.name, options_.role, options_.version, options_.case_hash, getpid(), host_name()});
+  post(message::Hello{options_.name, options_.role, options_.version, options_.case_hash, getpid(), host_name(),
+                      options_.keeps});
   while (!welcome_) wait_on("the broker did not take up HELLO");
 }
 

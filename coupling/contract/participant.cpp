@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "coupling/base/stage_timer.hpp"
+#include "coupling/contract/kept_file.hpp"
 #include "coupling/contract/link.hpp"
 #include "coupling/contract/surface_fields.hpp"
 
@@ -33,6 +34,8 @@ struct Participant::Impl {
   bool computing = false, ended = false, finished = false;
   Stopwatch since_grant;
   Times times;
+  std::int64_t earlier_bytes = 0;  // before this run was continued
+  KeptState kept;
 
   [[noreturn]] void refuse(const std::string& what, const ProtocolError& error) {
     const message::Abort failure{"broker", ExitCode::participant_lost, fmt::format("{}: {}", what, error.what()),
@@ -55,6 +58,27 @@ struct Participant::Impl {
   void advance(const Payload& payload, const InterfaceTotals& totals) {
     link.send(message::Advance{window, totals, times.compute, times.wait}, &payload);
     computing = false;
+  }
+  KeptFile kept_file(std::int64_t windows) const { return {options.case_hash, options.name, windows}; }
+  /// Answers CHECKPOINT.
+  void save(const message::Checkpoint& order) {
+    const Stopwatch watch;
+    if (!kept.save) throw std::logic_error("CHECKPOINT without keep()");
+    times.bytes = earlier_bytes + link.bytes();
+    StateWriter own;
+    own(times);
+    const auto [bytes, checksum] = kept_file(order.windows).write(order.folder, own.bytes() + kept.save());
+    link.send(message::Saved{order.windows, bytes, checksum});
+    times.exchange += watch.seconds();
+  }
+  void take_up(const message::Start& start) {
+    const std::string state = kept_file(start.clock.first).read(start.folder, start.checksum);
+    StateWriter own;
+    own(times);
+    if (!kept.restore || state.size() < own.bytes().size()) throw_longer_state();
+    StateReader(std::span(state).first(own.bytes().size()))(times);
+    earlier_bytes = times.bytes;
+    kept.restore(std::span(state).subspan(own.bytes().size()));
   }
   /// Books the time since the grant; true if there is a window to hand in.
   void begin_advance() {
@@ -105,14 +129,31 @@ CouplingClock Participant::ready(const WindowNeeds& needs) {
   my.link.flush_progress();
   my.link.send(message::Ready{needs, my.digest});
   const Parcel parcel = my.await({kind<message::Start>()});
-  return std::get<message::Start>(parcel.body).clock;
+  const auto& start = std::get<message::Start>(parcel.body);
+  if (start.clock.first > 0) my.take_up(start);
+  return start.clock;
+}
+
+void Participant::keep(KeptState state) {
+  impl_->kept = std::move(state);
+}
+
+void Participant::throw_longer_state() {
+  throw Stop(ExitCode::checkpoint_incompatible,
+             "the saved state does not fit: it was written by another version of this program");
 }
 
 std::optional<Grant> Participant::next() {
   Impl& my = *impl_;
   if (my.computing) throw std::logic_error(fmt::format("next() before advance() of window {}", my.window));
   if (my.ended) return std::nullopt;
-  Parcel parcel = my.await({kind<message::Grant>(), kind<message::StopWindows>()});
+  const std::initializer_list<std::size_t> kinds = {kind<message::Grant>(), kind<message::StopWindows>(),
+                                                    kind<message::Checkpoint>()};
+  Parcel parcel = my.await(kinds);
+  while (const auto* order = std::get_if<message::Checkpoint>(&parcel.body)) {
+    my.save(*order);
+    parcel = my.await(kinds);
+  }
   const Stopwatch watch;
   const auto* granted = std::get_if<message::Grant>(&parcel.body);
   if (granted == nullptr) {
@@ -205,7 +246,7 @@ void Participant::abort(int exit_code, const std::string& reason) noexcept {
 
 Participant::Times Participant::times() const {
   Times times = impl_->times;
-  times.bytes = impl_->link.bytes();
+  times.bytes = impl_->earlier_bytes + impl_->link.bytes();
   return times;
 }
 

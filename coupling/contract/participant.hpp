@@ -3,7 +3,8 @@
 //
 //   Participant link(options);
 //   link.offer_surface(mesh)            structure      |   mesh = link.receive_surface()      load
-//   clock = link.ready(needs)           blocks until every participant is ready
+//   link.keep(state)                    optional: what `state` lists is saved at checkpoints, and read by ready()
+//   clock = link.ready(needs)           blocks until every participant is ready; clock.first > 0: a run is continued
 //   while (auto grant = link.next())    blocks; empty when the last window is done
 //     ... compute the window grant->begin .. grant->begin + clock.window ...
 //     link.advance(motion | load, progress)
@@ -18,6 +19,7 @@
 #include <optional>
 #include <string>
 
+#include "coupling/base/state_archive.hpp"
 #include "coupling/contract/surface.hpp"
 #include "coupling/session/messages.hpp"  // Role, WindowNeeds, CouplingClock, NamedValues, InterfaceTotals
 
@@ -32,6 +34,7 @@ struct ParticipantOptions {
   std::string version;          // software version, for the record
   double join_deadline = 60.0;  // s to wait for a broker that is not there yet
   double leave_within = 3.0;    // s a solver may go on computing after the first failure
+  bool keeps = false;           // calls keep(): takes part in checkpoints
   /// What to do after that; empty: print "standoff-NAME: error: TEXT" and end the process with the code.
   std::function<void(ExitCode, const std::string& text)> end_process = nullptr;
 };
@@ -45,6 +48,12 @@ struct Grant {
   SurfaceLoad load;      // structure side: force to hold over this window; window 0 in the parallel scheme: zero
 };
 
+/// Writes and reads all that outlives a window; see Participant::keep.
+struct KeptState {
+  std::function<std::string()> save;
+  std::function<void(std::span<const char>)> restore;
+};
+
 class Participant {
  public:
   explicit Participant(ParticipantOptions options);  // connects and says HELLO
@@ -54,6 +63,22 @@ class Participant {
 
   void offer_surface(const SurfaceMesh& mesh);
   SurfaceMesh receive_surface();
+  /// `state(archive)` lists what outlives a window, once for writing and reading (base/state_archive.hpp). It is called
+  /// inside ready() and next() only.
+  template <class State>
+  void keep(State state) {
+    keep(KeptState{[state] {
+                     StateWriter writer;
+                     state(writer);
+                     return writer.bytes();
+                   },
+                   [state](std::span<const char> bytes) {
+                     StateReader reader(bytes);
+                     state(reader);
+                     if (!reader.at_end()) throw_longer_state();
+                   }});
+  }
+  void keep(KeptState state);
   CouplingClock ready(const WindowNeeds& needs);
   std::optional<Grant> next();
   /// Asks that no window beyond those already begun be computed; `next` then ends the loop on both sides.
@@ -83,6 +108,7 @@ class Participant {
   Times times() const;
 
  private:
+  [[noreturn]] static void throw_longer_state();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

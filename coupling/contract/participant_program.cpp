@@ -56,6 +56,7 @@ int participant_program(int argc, char** argv, const ParticipantIdentity& identi
     options.endpoint = command.endpoint;
     options.token = command.token;
     options.case_hash = read.hash;
+    options.keeps = identity.keeps;
     with_link(options, [&](Participant& link) { body(read.spec, command, link); });
   });
 }

@@ -18,6 +18,7 @@ struct ParticipantIdentity {
   std::string name;     // in the run
   Role role = Role::load;
   std::string does;  // one line of help
+  bool keeps = true;  // takes part in checkpoints: calls Participant::keep
 };
 
 struct ParticipantCommand {

@@ -24,6 +24,7 @@ void watch_process() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of write, like a full disk
   const pid_t now = getppid();
   if (now > 1) parent = now;
 }

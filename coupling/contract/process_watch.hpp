@@ -5,7 +5,7 @@
 
 namespace standoff {
 
-/// From now on SIGINT and SIGTERM are noted instead of ending the process, SIGPIPE is ignored, and the parent is
+/// From now on SIGINT and SIGTERM are noted instead of ending the process, SIGPIPE and SIGXFSZ are ignored, and the parent is
 /// watched unless it is the system's own first process. Call once, at the start of main.
 void watch_process();
 

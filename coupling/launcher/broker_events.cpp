@@ -65,6 +65,8 @@ std::optional<BrokerEvent> event_of(const json& j) {
                           number(j.at("work_received_J"))};
   if (kind == "failed")
     return FailedEvent{j.value("origin", ""), j.value("code", 4), j.value("reason", ""), j.value("window", -1L)};
+  if (kind == "saving") return SavingEvent{j.value("reason", "")};
+  if (kind == "checkpoint") return CheckpointEvent{j.at("windows"), number(j.at("time_s")), number(j.at("bytes"))};
   if (kind == "done") return DoneEvent{};
   return std::nullopt;
 }

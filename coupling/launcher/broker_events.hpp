@@ -51,10 +51,18 @@ struct FailedEvent {
   std::string reason;
   long window = -1;
 };
+/// An interrupted run goes on until it has saved.
+struct SavingEvent {
+  std::string reason;
+};
+struct CheckpointEvent {
+  long windows = 0;  // done
+  double time_s = 0.0, bytes = 0.0;
+};
 struct DoneEvent {};
 
 using BrokerEvent = std::variant<JoinedEvent, ClockEvent, WaitingEvent, ProgressEvent, SampleEvent, ReportEvent,
-                                 InterfaceEvent, FailedEvent, DoneEvent>;
+                                 InterfaceEvent, SavingEvent, CheckpointEvent, FailedEvent, DoneEvent>;
 
 /// Nothing for a line that is not one of the events above: such lines go to the log as they are.
 std::optional<BrokerEvent> parse_event(const std::string& line);

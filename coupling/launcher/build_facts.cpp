@@ -19,6 +19,11 @@ const BuildFacts& build_facts() {
   return facts;
 }
 
+std::string build_id() {
+  const BuildFacts& facts = build_facts();
+  return facts.version + " " + facts.git + ", " + facts.compiler + ", " + facts.flags;
+}
+
 int usable_cores() {
   cpu_set_t set;
   CPU_ZERO(&set);

@@ -12,6 +12,8 @@ struct BuildFacts {
 };
 
 const BuildFacts& build_facts();
+/// What a checkpoint must have been written by to be continued with the same bits: version, commit, compiler, flags.
+std::string build_id();
 
 /// "AMD EPYC 7R13, 2 cores": from /proc/cpuinfo and the cores this process may use.
 std::string cpu_name();

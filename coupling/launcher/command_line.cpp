@@ -1,6 +1,7 @@
 #include "coupling/launcher/command_line.hpp"
 
 #include <cstdio>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,11 +17,11 @@ namespace {
 
 constexpr const char* closing =
     R"(Exit codes: 0 done, 1 a check failed, 2 wrong case or command line (nothing was started), 3 stopped by a guard,
-4 a participant was lost, 5 out of time, memory or disk, 130 interrupted.)";
+4 a participant was lost, 5 out of time, memory or disk, 6 checkpoint incompatible, 130 interrupted.)";
 
 struct Texts {
   std::vector<std::string> set;
-  std::string max_time;
+  std::string max_time, progress, checkpoint = "60 s";
 };
 
 void add_case(CLI::App& verb, std::string& path) {
@@ -83,6 +84,22 @@ double max_time_of(const Texts& texts) {
   return texts.max_time.empty() ? 0.0 : wall_seconds(texts.max_time);
 }
 
+void add_progress(CLI::App& verb, Texts& texts) {
+  verb.add_option("--progress", texts.progress, "json: one JSON object a line instead of the progress line")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"json", "text"}));
+  verb.add_option("--checkpoint", texts.checkpoint,
+                  "when to save: off, a wall-clock time (90 s, 5 min) or a count (200 windows)")
+      ->type_name("T")
+      ->capture_default_str();
+}
+
+void take_texts(RunOptions& options, const Texts& texts) {
+  options.max_time = max_time_of(texts);
+  options.json = texts.progress == "json";
+  options.checkpoint = checkpoint_options(texts.checkpoint);
+}
+
 Action add_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   auto texts = std::make_shared<Texts>();
@@ -93,16 +110,28 @@ Action add_run(CLI::App& app) {
   add_threads(verb, options->threads);
   add_max_time(verb, *texts, "stop after this wall-clock time (90, 15 min, 2 h) with exit code 5");
   verb.add_flag("--quiet", options->quiet, "print errors only");
-  auto progress = std::make_shared<std::string>();
-  verb.add_option("--progress", *progress, "json: one JSON object a line instead of the progress line")
-      ->type_name("FORMAT")
-      ->check(CLI::IsMember({"json", "text"}));
-  return [options, texts, progress] {
+  add_progress(verb, *texts);
+  return [options, texts] {
     options->overrides = with_set(options->overrides, *texts);
     take_structure_command(*options);
-    options->max_time = max_time_of(*texts);
-    options->json = *progress == "json";
+    take_texts(*options, *texts);
     return run_verb(*options);
+  };
+}
+
+Action add_resume(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  auto texts = std::make_shared<Texts>();
+  auto folder = std::make_shared<std::string>();
+  CLI::App& verb = *app.add_subcommand("resume", "goes on with a stopped run from its last checkpoint, bit for bit");
+  verb.add_option("RUN", *folder, "a run folder, e.g. runs/dry_150mm/coarse-1")->required()->type_name("");
+  add_threads(verb, options->threads);
+  add_max_time(verb, *texts, "stop after this wall-clock time, counted from now, with exit code 5");
+  verb.add_flag("--quiet", options->quiet, "print errors only");
+  add_progress(verb, *texts);
+  return [options, texts, folder] {
+    take_texts(*options, *texts);
+    return resume_verb(*options, *folder);
   };
 }
 
@@ -212,6 +241,18 @@ int parse_and_call(CLI::App& app, const Actions& actions, int argc, char** argv)
 
 }  // namespace
 
+CheckpointOptions checkpoint_options(const std::string& text) {
+  if (text == "off") return {false, 0.0, 0};
+  std::istringstream words(text);
+  long count = 0;
+  std::string unit, rest;
+  if (words >> count >> unit && unit.starts_with("window") && !(words >> rest)) {
+    if (count > 0) return {true, 0.0, count};
+    throw Stop(ExitCode::bad_case, "--checkpoint \"" + text + "\": a positive number of windows is needed");
+  }
+  return {true, wall_seconds(text), 0};
+}
+
 double wall_seconds(const std::string& text) {
   std::size_t used = 0;
   double value = -1.0;
@@ -232,7 +273,11 @@ int launch(int argc, char** argv) {
   app.footer(closing);
   app.set_version_flag("--version", build_facts().version + " (" + build_facts().git + ")");
   app.require_subcommand(1);
-  Actions actions{{"run", add_run(app)}, {"check", add_check(app)}, {"plan", add_plan(app)}, {"cost", add_cost(app)}};
+  Actions actions{{"run", add_run(app)},
+                  {"resume", add_resume(app)},
+                  {"check", add_check(app)},
+                  {"plan", add_plan(app)},
+                  {"cost", add_cost(app)}};
   add_fact_verbs(app, actions);
   add_folder_verbs(app, actions);
   try {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -76,16 +77,51 @@ std::string HistoryTable::finish() {
   return waiting_.empty() ? "" : take_until(waiting_.rbegin()->first);
 }
 
+namespace {
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream text(line + ",");
+  for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+}  // namespace
+
+std::string HistoryTable::take_up(const std::string& text, double time) {
+  std::istringstream lines(text);
+  std::string kept, line;
+  while (std::getline(lines, line) && !lines.eof()) {  // a line without its end was never written whole
+    const std::vector<std::string> fields = fields_of(line);
+    if (columns_.empty()) {
+      columns_ = fields;
+    } else {
+      Values values;
+      for (std::size_t i = 0; i < std::min(fields.size(), columns_.size()); ++i)
+        if (!fields[i].empty()) values[columns_[i]] = std::stod(fields[i]);
+      if (!(values["time_s"] <= time)) break;
+      note_work(values);
+      last_written_ = std::lround(values["time_s"] / interval_);
+      ++rows_;
+    }
+    kept += line + "\n";
+  }
+  return kept;
+}
+
+void HistoryTable::note_work(const Values& values) {
+  if (const auto error = values.find("interface_work_error_J"); error != values.end())
+    largest_work_error_ = std::max(largest_work_error_, std::abs(error->second));
+  if (const auto work = values.find("external_work_J"); work != values.end())
+    largest_external_work_ = std::max(largest_external_work_, work->second);
+}
+
 std::string HistoryTable::write(const Row& row) {
   Values values = row.values;
   values["time_s"] = row.times.begin()->second;
-  if (values.contains("work_to_structure_J") && values.contains("external_work_J")) {
-    const double error = values["work_to_structure_J"] - values["external_work_J"];
-    values["interface_work_error_J"] = error;
-    largest_work_error_ = std::max(largest_work_error_, std::abs(error));
-  }
-  if (values.contains("external_work_J"))
-    largest_external_work_ = std::max(largest_external_work_, values["external_work_J"]);
+  if (values.contains("work_to_structure_J") && values.contains("external_work_J"))
+    values["interface_work_error_J"] = values["work_to_structure_J"] - values["external_work_J"];
+  note_work(values);
 
   std::string text;
   if (columns_.empty()) {

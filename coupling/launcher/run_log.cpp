@@ -16,8 +16,8 @@ namespace {
 
 }  // namespace
 
-GrowingFile::GrowingFile(const std::string& path)
-    : path_(path), fd_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+GrowingFile::GrowingFile(const std::string& path, bool append)
+    : path_(path), fd_(open(path.c_str(), O_WRONLY | O_CREAT | (append ? O_APPEND : O_TRUNC) | O_CLOEXEC, 0666)) {
   if (fd_ < 0) give_up(path_);
 }
 
@@ -34,11 +34,14 @@ void GrowingFile::append(const std::string& text) {
   }
 }
 
-RunLog::RunLog(const std::string& folder)
-    : begin_(std::chrono::steady_clock::now()), text_(folder + "/log.txt"), json_(folder + "/log.jsonl") {}
+RunLog::RunLog(const std::string& folder, double earlier)
+    : begin_(std::chrono::steady_clock::now()),
+      earlier_(earlier),
+      text_(folder + "/log.txt", earlier > 0.0),
+      json_(folder + "/log.jsonl", earlier > 0.0) {}
 
 double RunLog::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  return earlier_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
 void RunLog::line(const std::string& who, const std::string& text) {

@@ -10,7 +10,8 @@ namespace standoff::launch {
 /// A file that grows line by line; a full disk is Stop(out_of_resources), never a silently shorter file.
 class GrowingFile {
  public:
-  explicit GrowingFile(const std::string& path);
+  /// `append`: goes on behind what is there; otherwise the file begins empty.
+  explicit GrowingFile(const std::string& path, bool append = false);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
@@ -23,7 +24,8 @@ class GrowingFile {
 
 class RunLog {
  public:
-  explicit RunLog(const std::string& folder);
+  /// `earlier` > 0: the run goes on after so many seconds in earlier sessions.
+  explicit RunLog(const std::string& folder, double earlier = 0.0);
   /// A line somebody said: "launcher", "broker", "particles", "structure".
   void line(const std::string& who, const std::string& text);
   /// An event; its text goes to log.txt, the object with time and origin to log.jsonl.
@@ -32,6 +34,7 @@ class RunLog {
  private:
   double seconds() const;
   std::chrono::steady_clock::time_point begin_;
+  double earlier_;
   GrowingFile text_, json_;
 };
 

@@ -1,6 +1,8 @@
 #include "coupling/launcher/run_session.hpp"
 
 #include <cstdio>
+#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -44,6 +46,31 @@ void replace_program(ChildCommand& command, const std::string& words) {
   command.argv.insert(command.argv.begin(), {"/bin/sh", "-c", "exec " + words + " \"$@\""});
 }
 
+/// histories.csv, empty or up to where the run is taken up.
+GrowingFile open_histories(const std::string& path, HistoryTable& table, const std::optional<Continuation>& from) {
+  if (!from) return GrowingFile(path);
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  write_atomically(path, table.take_up(text.str(), from->time + 0.5 * from->window));
+  return GrowingFile(path, true);
+}
+
+std::vector<std::string> checkpoint_arguments(const CheckpointOptions& options, const std::string& folder,
+                                              const std::optional<Continuation>& from) {
+  std::vector<std::string> arguments;
+  if (options.on)
+    arguments = {"--checkpoint",
+                 folder + "/checkpoint",
+                 "--checkpoint-every",
+                 fmt::format("{:g}", options.every),
+                 "--checkpoint-windows",
+                 std::to_string(options.windows),
+                 "--build",
+                 build_id()};
+  if (from) arguments.insert(arguments.end(), {"--resume", from->checkpoint});
+  return arguments;
+}
+
 RunFacts initial_facts(const RunOptions& options, const CaseRead& read, const CostPrediction& plan) {
   RunFacts facts;
   if (!options.structure_command.empty()) facts.structure_model = "exec:" + options.structure_command;
@@ -58,30 +85,42 @@ RunFacts initial_facts(const RunOptions& options, const CaseRead& read, const Co
 
 }  // namespace
 
-RunSession::RunSession(const RunOptions& options, const CaseRead& read, std::string folder)
+RunSession::RunSession(const RunOptions& options, const CaseRead& read, std::string folder,
+                       std::optional<Continuation> continuation)
     : options_(options),
       read_(read),
       folder_(std::move(folder)),
+      continuation_(std::move(continuation)),
       plan_(
           predict_cost(read.spec, usable_cores(), options.threads.particle_count(), options.threads.structure_count())),
       facts_(initial_facts(options, read, plan_)),
-      log_(folder_),
-      histories_(folder_ + "/histories.csv"),
+      log_(folder_, continuation_ ? continuation_->wall : 0.0),
       table_(read.spec.observe.interval, sample_sources),
+      histories_(open_histories(folder_ + "/histories.csv", table_, continuation_)),
       view_(view_mode(options.quiet, options.json)),
       supervisor_({options.max_time}, {[this](const ChildProcess& child, bool error_output, const std::string& line) {
                                          take_line(child, error_output, line);
                                        },
                                        [this] { view_.show(supervisor_.seconds()); }}) {}
 
+double RunSession::wall() const {
+  return supervisor_.seconds() + (continuation_ ? continuation_->wall : 0.0);
+}
+
 int RunSession::run() {
-  write_atomically(folder_ + "/case.resolved.toml", read_.resolved);
+  if (!continuation_) write_atomically(folder_ + "/case.resolved.toml", read_.resolved);
   write_record();
   log_.line("launcher", fmt::format("{} {} ({}), case {}, level {}, seed {}", "standoff", facts_.build.version,
                                     facts_.build.git, read_.spec.name, read_.spec.level, read_.spec.run.seed));
   view_.note(fmt::format("{}{}{}, seed {}: predicted {}; writing {}", read_.spec.name,
                          read_.spec.level.empty() ? "" : ", level ", read_.spec.level, read_.spec.run.seed,
                          wall_text(plan_.wall_s), folder_));
+  if (continuation_) {
+    const std::string text = fmt::format("going on after {} windows, {}, from {}", continuation_->windows,
+                                         duration_text(continuation_->time), continuation_->checkpoint);
+    view_.note(text);
+    log_.line("launcher", text);
+  }
   std::optional<Cause> cause;
   try {
     start_processes();
@@ -95,12 +134,15 @@ int RunSession::run() {
 void RunSession::start_processes() {
   const std::string endpoint = "ipc://" + sockets_.path() + "/broker", token = run_token();
   const CouplingSpec& coupling = read_.spec.coupling;
-  supervisor_.start(
-      {"broker",
-       {program_path("standoff-broker"), "--listen", endpoint, "--token", token, "--until",
-        fmt::format("{:.17g}", read_.spec.run.until), "--scheme",
-        coupling.scheme == Scheme::parallel ? "parallel" : "serial", "--window", window_argument(coupling)},
-       thread_environment(1)});
+  ChildCommand broker{
+      "broker",
+      {program_path("standoff-broker"), "--listen", endpoint, "--token", token, "--until",
+       fmt::format("{:.17g}", read_.spec.run.until), "--scheme",
+       coupling.scheme == Scheme::parallel ? "parallel" : "serial", "--window", window_argument(coupling)},
+      thread_environment(1)};
+  const auto more = checkpoint_arguments(options_.checkpoint, folder_, continuation_);
+  broker.argv.insert(broker.argv.end(), more.begin(), more.end());
+  supervisor_.start(broker);
   ChildCommand structure = participant("structure", folder_, endpoint, token, plan_.structure_threads);
   if (!options_.structure_command.empty()) replace_program(structure, options_.structure_command);
   supervisor_.start(structure);
@@ -161,6 +203,19 @@ void RunSession::operator()(const InterfaceEvent& event) {
   facts_.interface_ledger = event;
 }
 
+void RunSession::operator()(const SavingEvent& event) {
+  supervisor_.broker_saves();
+  view_.note("saving a checkpoint at the end of this window; a second Ctrl-C leaves at once");
+  log_.event("broker", "saving before the run is left: " + event.reason,
+             {{"event", "saving"}, {"reason", event.reason}});
+}
+
+void RunSession::operator()(const CheckpointEvent& event) {
+  saved_windows_ = event.windows;
+  log_.event("broker", fmt::format("checkpoint after {} windows, {}", event.windows, duration_text(event.time_s)),
+             {{"event", "checkpoint"}, {"windows", event.windows}, {"time_s", event.time_s}, {"bytes", event.bytes}});
+}
+
 void RunSession::operator()(const FailedEvent& event) {
   supervisor_.broker_failed(event);
   log_.event("broker", fmt::format("failed: {}: {}", event.origin, event.reason),
@@ -176,7 +231,7 @@ void RunSession::operator()(const DoneEvent&) {
 }
 
 void RunSession::write_record() {
-  facts_.wall_s = supervisor_.seconds();
+  facts_.wall_s = wall();
   facts_.largest_work_error = table_.largest_work_error();
   facts_.largest_external_work = table_.largest_external_work();
   write_atomically(
@@ -217,6 +272,8 @@ void RunSession::explain(const Cause& cause) const {
     std::fprintf(stderr, "  last lines of %s:\n", child.name.c_str());
     for (const std::string& line : child.last_lines) std::fprintf(stderr, "    %s\n", line.c_str());
   }
+  if (saved_windows_ > 0)
+    std::fprintf(stderr, "  a checkpoint holds %ld windows: standoff resume %s\n", saved_windows_, folder_.c_str());
   std::fprintf(stderr, "  exit %d; see %s/log.txt\n", static_cast<int>(cause.code), folder_.c_str());
 }
 

@@ -19,10 +19,20 @@
 
 namespace standoff::launch {
 
+/// Where a run is taken up again.
+struct Continuation {
+  std::string checkpoint;  // its folder
+  long windows = 0;        // done in it
+  double time = 0.0;       // s, of their end
+  double window = 0.0;     // s
+  double wall = 0.0;       // s of wall clock in earlier sessions
+};
+
 class RunSession {
  public:
-  /// `folder` exists and holds no run; `read` has no errors.
-  RunSession(const RunOptions& options, const CaseRead& read, std::string folder);
+  /// `folder` exists and holds no run, or one to be continued; `read` has no errors.
+  RunSession(const RunOptions& options, const CaseRead& read, std::string folder,
+             std::optional<Continuation> continuation = std::nullopt);
   /// Exit code of the run; everything a user needs to know is printed.
   int run();
 
@@ -34,6 +44,8 @@ class RunSession {
   void operator()(const SampleEvent& event);
   void operator()(const ReportEvent& event);
   void operator()(const InterfaceEvent& event);
+  void operator()(const SavingEvent& event);
+  void operator()(const CheckpointEvent& event);
   void operator()(const FailedEvent& event);
   void operator()(const DoneEvent& event);
 
@@ -44,20 +56,23 @@ class RunSession {
   int close(std::optional<Cause> cause);
   void explain(const Cause& cause) const;
   void print_result(const OrderedJson& record);
+  double wall() const;  // s, earlier sessions included
 
   const RunOptions& options_;
   const CaseRead& read_;
   std::string folder_;
+  std::optional<Continuation> continuation_;
   CostPrediction plan_;
   RunFacts facts_;
   std::map<std::string, nlohmann::json> reports_;
   RunLog log_;
-  GrowingFile histories_;
   HistoryTable table_;
+  GrowingFile histories_;
   ProgressView view_;
   PrivateFolder sockets_;
   Supervisor supervisor_;
   double last_progress_logged_ = -1e9;
+  long saved_windows_ = 0;  // in the last checkpoint
 };
 
 }  // namespace standoff::launch

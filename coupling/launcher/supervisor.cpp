@@ -1,6 +1,7 @@
 #include "coupling/launcher/supervisor.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -102,7 +103,7 @@ void Supervisor::poll_once() {
     if (cause_)
       signal_all(SIGKILL), killed_ = true;  // asked twice: no grace
     else
-      stop_for({ExitCode::interrupted, "", "stopped by " + signal_text(number)});
+      ask_to_stop({ExitCode::interrupted, "", "stopped by " + signal_text(number)});
   }
   reap();
   read_outputs();  // after the ends: what a process said before it ended is known before anyone judges
@@ -147,12 +148,21 @@ void Supervisor::reap() {
 
 void Supervisor::decide() {
   const double now = seconds();
+  if (asking_ && asking_is_over()) {
+    const Cause cause = *std::exchange(cause_, std::nullopt);
+    asking_ = false;
+    stop_for(cause);
+  }
   if (cause_) {
-    if (!killed_ && now - stop_at_ > times_.terminate) signal_all(SIGKILL), killed_ = true;
+    if (!killed_ && !asking_ && now - stop_at_ > times_.terminate) signal_all(SIGKILL), killed_ = true;
     return;
   }
   if (done_ && done_at_ < 0.0) done_at_ = now;
-  if (const auto cause = trouble()) stop_for(*cause);
+  const bool in_time = times_.max_time <= 0.0 || now <= times_.max_time;
+  if (const auto cause = trouble())
+    stop_for(*cause);
+  else if (!in_time)
+    ask_to_stop({ExitCode::out_of_resources, "", fmt::format("out of time: --max-time {:g} s", times_.max_time)});
 }
 
 /// The first cause, once enough is known to name it.
@@ -164,8 +174,6 @@ std::optional<Cause> Supervisor::trouble() {
     if (by_signal || !anyone_alive() || now - suspicion_at_ > times_.settle) return cause;
     return std::nullopt;
   }
-  if (times_.max_time > 0.0 && now > times_.max_time)
-    return Cause{ExitCode::out_of_resources, "", fmt::format("out of time: --max-time {:g} s", times_.max_time)};
   if (!anyone_alive() && !done_)
     return Cause{ExitCode::participant_lost, "broker",
                  "all processes ended before the broker said that the run is done"};
@@ -175,6 +183,25 @@ std::optional<Cause> Supervisor::trouble() {
         return Cause{ExitCode::participant_lost, child.name,
                      fmt::format("did not end within {:g} s after the run was done", times_.end_after_done)};
   return std::nullopt;
+}
+
+/// The broker alone gets the signal: it tells the others when all is saved.
+void Supervisor::ask_to_stop(const Cause& cause) {
+  const auto broker = std::find_if(children_.begin(), children_.end(),
+                                   [](const ChildProcess& c) { return c.name == "broker" && c.alive; });
+  if (broker == children_.end()) return stop_for(cause);
+  cause_ = cause;
+  stop_at_ = seconds();
+  asking_ = true;
+  broker->signal(SIGTERM);
+  signal_all(SIGCONT);
+}
+
+bool Supervisor::asking_is_over() const {
+  const bool broker_alive = std::any_of(children_.begin(), children_.end(),
+                                        [](const ChildProcess& c) { return c.name == "broker" && c.alive; });
+  const double patience = !broker_alive ? times_.settle : saving_ ? times_.save : times_.ask;
+  return seconds() - stop_at_ > patience;
 }
 
 void Supervisor::stop_for(const Cause& cause) {

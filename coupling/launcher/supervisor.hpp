@@ -1,7 +1,8 @@
 #pragma once
 // Watches the processes of a run until all have ended: reads their outputs, waits for their ends, obeys signals and the
 // time limit. The first thing that goes wrong is the outcome; everything after it is a consequence. Stopping: SIGTERM
-// to every process group, SIGKILL after a grace time, never longer than 10 s in all.
+// to every process group, SIGKILL after a grace time, never longer than 10 s in all. A run that is interrupted or out of
+// time is asked through its broker first, which saves a checkpoint where it can: longer only while it says that it does.
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -35,6 +36,8 @@ class SignalGate {
 struct SupervisorTimes {
   double max_time = 0.0;         // s of wall clock; 0 = no limit
   double terminate = 3.0;        // s from SIGTERM to SIGKILL
+  double ask = 3.0;              // s the broker has to say that it saves
+  double save = 30.0;            // s it has to do so
   double settle = 0.5;           // s to learn how the process that the broker blames ended
   double end_after_done = 10.0;  // s the processes have to end after the broker's "done"
 };
@@ -54,6 +57,7 @@ class Supervisor {
   /// To be called from the line hook.
   void broker_failed(const FailedEvent& event);
   void broker_done() { done_ = true; }
+  void broker_saves() { saving_ = true; }
 
   /// Returns when all processes have ended: nothing if all is well, else the first cause.
   std::optional<Cause> watch();
@@ -68,6 +72,8 @@ class Supervisor {
   void decide();
   std::optional<Cause> trouble();
   void stop_for(const Cause& cause);
+  void ask_to_stop(const Cause& cause);
+  bool asking_is_over() const;
   void signal_all(int number) const;
   bool anyone_alive() const;
 
@@ -78,7 +84,7 @@ class Supervisor {
   std::vector<ProcessEnd> ends_;
   std::optional<FailedEvent> failed_;
   std::optional<Cause> cause_;
-  bool done_ = false, killed_ = false;
+  bool done_ = false, killed_ = false, asking_ = false, saving_ = false;
   std::chrono::steady_clock::time_point begin_;
   double suspicion_at_ = -1.0, stop_at_ = -1.0, done_at_ = -1.0;  // s since begin_
 };

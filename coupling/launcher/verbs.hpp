@@ -13,6 +13,14 @@ struct ThreadOptions {
   int structure_count() const { return structure > 0 ? structure : both; }
 };
 
+struct CheckpointOptions {
+  bool on = true;
+  double every = 60.0;  // s of wall clock, 0 = not by time
+  long windows = 0;     // 0 = not by count
+};
+/// "off", "90 s", "5 min" or "200 windows"; throws Stop(bad_case) for anything else.
+CheckpointOptions checkpoint_options(const std::string& text);
+
 struct RunOptions {
   std::string case_path;
   CaseOverrides overrides;
@@ -21,8 +29,11 @@ struct RunOptions {
   ThreadOptions threads;
   double max_time = 0.0;  // s of wall clock, 0 = none
   bool quiet = false, json = false;
+  CheckpointOptions checkpoint;
 };
 int run_verb(const RunOptions& options);
+/// Goes on with the run in `folder`; of the options those count that do not change the case.
+int resume_verb(const RunOptions& options, const std::string& folder);
 
 struct CheckOptions {
   std::string case_path;

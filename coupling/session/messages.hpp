@@ -25,6 +25,7 @@ struct CouplingClock {
   double window = 0.0;  // s
   std::int64_t windows = 0;
   bool parallel = true;  // load and motion of window k-1 feed window k; otherwise the load side goes first
+  std::int64_t first = 0;  // window that a continued run goes on with
 };
 
 /// Named numbers for people and programs: a row of histories.csv or a progress line.
@@ -55,6 +56,7 @@ struct Hello {
   std::string software_version, case_hash;
   std::int64_t pid = 0;
   std::string host;
+  bool keeps = false;  // can save its state and go on from it
 };
 struct Welcome {
   std::uint32_t epoch = 0;
@@ -74,6 +76,8 @@ struct Ready {
 };
 struct Start {
   CouplingClock clock;
+  std::string folder;          // of the checkpoint to go on from, if clock.first > 0
+  std::uint32_t checksum = 0;  // of this participant's file in it
 };
 struct Grant {
   std::int64_t window = 0;
@@ -110,6 +114,14 @@ struct Sample {
 struct Report {
   std::string json;
 };
+struct Checkpoint {
+  std::int64_t windows = 0;  // done
+  std::string folder;
+};
+struct Saved {
+  std::int64_t windows = 0, bytes = 0;
+  std::uint32_t checksum = 0;
+};
 
 }  // namespace message
 
@@ -117,7 +129,8 @@ struct Report {
 using Message =
     std::variant<message::Hello, message::Welcome, message::Reject, message::Surface, message::Ready, message::Start,
                  message::Grant, message::Advance, message::StopWindows, message::Beat, message::Abort, message::Bye,
-                 message::ByeAck, message::Progress, message::Sample, message::Report>;
+                 message::ByeAck, message::Progress, message::Sample, message::Report, message::Checkpoint,
+                 message::Saved>;
 constexpr std::size_t message_kinds = std::variant_size_v<Message>;
 
 /// "HELLO", "GRANT", ...

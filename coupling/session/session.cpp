@@ -71,6 +71,7 @@ struct Dispatch {
     turn.announce(announce::Sample{peer.name, body.time, body.values});
   }
   void operator()(const message::Report& body) { turn.announce(announce::Report{peer.name, body.json}); }
+  void operator()(const message::Saved& body) { take_saved(turn, peer, body); }
   // The table of legal messages keeps these out.
   void operator()(const message::Hello&) {}
   void operator()(const message::Welcome&) {}
@@ -78,6 +79,7 @@ struct Dispatch {
   void operator()(const message::Start&) {}
   void operator()(const message::Grant&) {}
   void operator()(const message::ByeAck&) {}
+  void operator()(const message::Checkpoint&) {}
 };
 
 struct Happened {
@@ -112,7 +114,8 @@ struct Happened {
               peer);
   }
   void operator()(const Tick&) { watch(turn); }
-  void operator()(const Interrupted& event) { turn.fail({"broker", ExitCode::interrupted, event.reason, -1}); }
+  void operator()(const Interrupted& event) { interrupt(turn, event.reason); }
+  void operator()(const Committed& event) { take_committed(turn, event); }
 };
 
 }  // namespace
@@ -120,7 +123,7 @@ struct Happened {
 SessionState open_session(SessionRules rules, double now) {
   SessionState state;
   state.rules = std::move(rules);
-  state.phase_since = state.last_tick = state.last_notice = now;
+  state.phase_since = state.last_tick = state.last_notice = state.last_checkpoint = now;
   return state;
 }
 

@@ -28,6 +28,35 @@ struct Deadlines {
   double progress = 300.0;     // the process lives, but its solver has not moved for this long: stuck
   double notice = 5.0;         // waiting is reported after this long, and again each time
   double own_pause = 1.0;      // a broker that was itself stopped for longer blames nobody for that time
+  double save = 25.0;          // an interrupted run may go on for this long to reach a window's end and save
+};
+
+/// When the sides are asked to save. A last checkpoint is always made before the structure comes to rest.
+struct CheckpointRule {
+  std::string folder;             // holds window-NUMBER folders; empty: never
+  double every = 60.0;            // s of wall clock; 0: not by time
+  std::int64_t every_windows = 0;  // 0: not by count
+};
+
+/// What one side wrote.
+struct SavedSide {
+  std::string name;
+  std::int64_t bytes = 0;
+  std::uint32_t checksum = 0;
+};
+
+/// The broker's half of a checkpoint: all that lies between the two sides at the end of a window.
+struct InterfaceState {
+  CouplingClock clock;  // clock.first: the next window
+  std::string case_hash, surface_digest;
+  InterfaceTotals given, received;
+  std::int64_t bytes = 0;
+  PayloadHandle motion, load;
+  std::vector<SavedSide> sides;
+};
+struct ResumePoint {
+  InterfaceState state;
+  std::string folder;  // where both sides find their files
 };
 
 struct SessionRules {
@@ -37,10 +66,12 @@ struct SessionRules {
   bool parallel = true;
   WindowRule window;
   Deadlines deadlines;
+  CheckpointRule checkpoint;
+  std::optional<ResumePoint> resume;
 };
 
-enum class Stage { absent, joined, meshed, ready, computing, waiting, finishing, closed };
-constexpr std::size_t stage_count = 8;
+enum class Stage { absent, joined, meshed, ready, computing, waiting, saving, finishing, closed };
+constexpr std::size_t stage_count = 9;
 const char* stage_name(Stage stage);
 /// Whether a participant in `stage` may send a message of this kind (index in Message).
 bool may_send(Stage stage, std::size_t kind);
@@ -59,6 +90,8 @@ struct Peer {
   WindowNeeds needs;
   std::int64_t window = -1;  // last granted
   InterfaceTotals totals;
+  bool keeps = false;
+  std::optional<SavedSide> saved;  // in the checkpoint that is being made
 };
 
 struct SessionState {
@@ -70,7 +103,10 @@ struct SessionState {
   message::Surface surface;
   PayloadHandle surface_payload, motion, load;  // latest of each
   std::int64_t bytes = 0;                       // of payload taken in
-  double phase_since = 0.0, last_tick = 0.0, last_notice = 0.0;
+  double phase_since = 0.0, last_tick = 0.0, last_notice = 0.0, last_checkpoint = 0.0;
+  std::int64_t checkpoint = -1;  // windows done at the last one, -1: none
+  std::string stop_reason;       // interrupted: save at the next window's end, then stop
+  double stop_since = 0.0;
   std::optional<message::Abort> failure;
   bool over = false;
 };
@@ -94,7 +130,11 @@ struct Tick {};
 struct Interrupted {
   std::string reason;
 };
-using SessionEvent = std::variant<Received, Malformed, Disconnected, Tick, Interrupted>;
+/// The broker's own half of a checkpoint is on disk, or why not.
+struct Committed {
+  std::string error;
+};
+using SessionEvent = std::variant<Received, Malformed, Disconnected, Tick, Interrupted, Committed>;
 
 /// What people and the launcher are told.
 namespace announce {
@@ -134,6 +174,14 @@ struct Interface {
   std::int64_t bytes = 0;
   InterfaceTotals given, received;
 };
+struct Saving {
+  std::string reason;  // of an interrupted run that is not left before it has saved
+};
+struct Checkpoint {
+  std::int64_t windows = 0;  // done
+  double time = 0.0;         // s
+  std::int64_t bytes = 0;
+};
 struct Failed {
   message::Abort failure;
 };
@@ -141,7 +189,8 @@ struct Done {};
 }  // namespace announce
 using Announcement = std::variant<announce::Joined, announce::Rejected, announce::Clock, announce::Waiting,
                                   announce::Progress, announce::Sample, announce::Report, announce::Stopping,
-                                  announce::Interface, announce::Failed, announce::Done>;
+                                  announce::Interface, announce::Saving, announce::Checkpoint, announce::Failed,
+                                  announce::Done>;
 
 /// What is to be done.
 struct Send {
@@ -153,10 +202,14 @@ struct Send {
 struct Announce {
   Announcement what;
 };
+/// Both sides have saved: add this and make it count, then say Committed.
+struct Commit {
+  InterfaceState state;
+};
 struct Finish {
   ExitCode code = ExitCode::done;
 };
-using SessionAction = std::variant<Send, Announce, Finish>;
+using SessionAction = std::variant<Send, Announce, Commit, Finish>;
 
 struct SessionStep {
   SessionState state;

@@ -33,6 +33,9 @@ std::pair<std::string, std::string> objection(SessionTurn& turn, const Envelope&
     return {fmt::format("case hash {} differs from {} of \"{}\"", hello.case_hash, state.case_hash,
                         state.peers.front().name),
             "start both with the same case, level and --set options"};
+  if (state.rules.resume && !hello.keeps)
+    return {"the run is continued from a checkpoint, and this participant cannot go on from one",
+            "use the program that the run was begun with"};
   return {};
 }
 
@@ -41,6 +44,36 @@ void forward_surface(SessionTurn& turn) {
   if (load == nullptr || load->stage != Stage::joined || turn.state.surface.nodes == 0) return;
   turn.send(*load, turn.state.surface, turn.state.surface_payload);
   turn.enter(*load, Stage::meshed);
+}
+
+void set_clock(SessionTurn& turn) {
+  SessionState& state = turn.state;
+  state.clock = decide_clock(state.rules.until, state.rules.parallel, state.rules.window,
+                             turn.with(Role::load)->needs, turn.with(Role::structure)->needs);
+}
+
+/// The interface as it was when the checkpoint was made.
+void take_up(SessionTurn& turn) {
+  SessionState& state = turn.state;
+  const InterfaceState& saved = state.rules.resume->state;
+  if (saved.case_hash != state.case_hash || saved.surface_digest != state.surface.digest)
+    throw Stop(ExitCode::checkpoint_incompatible,
+               fmt::format("the checkpoint was written for case hash {} and surface {}, this run has {} and {}",
+                           saved.case_hash, saved.surface_digest, state.case_hash, state.surface.digest));
+  state.clock = saved.clock;
+  state.bytes = saved.bytes;
+  state.motion = saved.motion, state.load = saved.load;
+  turn.with(Role::load)->totals = saved.given;
+  turn.with(Role::structure)->totals = saved.received;
+}
+
+message::Start start_of(const SessionState& state, const Peer& peer) {
+  message::Start start{state.clock, "", 0};
+  if (!state.rules.resume) return start;
+  start.folder = state.rules.resume->folder;
+  for (const SavedSide& side : state.rules.resume->state.sides)
+    if (side.name == peer.name) start.checksum = side.checksum;
+  return start;
 }
 
 }  // namespace
@@ -56,6 +89,7 @@ void take_hello(SessionTurn& turn, const std::string& address, const Envelope& e
   peer.host = hello.host;
   peer.role = hello.role;
   peer.pid = hello.pid;
+  peer.keeps = hello.keeps;
   peer.epoch = ++state.epochs;
   peer.received = envelope.sequence;
   peer.last_seen = turn.now;
@@ -94,16 +128,13 @@ void take_ready(SessionTurn& turn, Peer& peer, const message::Ready& ready) {
       state.peers.size() == state.rules.expected.size() &&
       std::all_of(state.peers.begin(), state.peers.end(), [](const Peer& p) { return p.stage == Stage::ready; });
   if (!all) return;
-  const Peer* load = turn.with(Role::load);
-  const Peer* structure = turn.with(Role::structure);
   try {
-    state.clock =
-        decide_clock(state.rules.until, state.rules.parallel, state.rules.window, load->needs, structure->needs);
+    state.rules.resume ? take_up(turn) : set_clock(turn);
   } catch (const Stop& stop) {
     return turn.fail({"broker", stop.code(), stop.what(), -1});
   }
   turn.announce(announce::Clock{state.clock});
-  for (Peer& each : state.peers) turn.send(each, message::Start{state.clock});
+  for (Peer& each : state.peers) turn.send(each, start_of(state, each));
   start_windows(turn);
 }
 

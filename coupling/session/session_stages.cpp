@@ -30,6 +30,7 @@ constexpr std::array<std::uint32_t, stage_count> legal = {
     /* ready     */ always,
     /* computing */ telling | set<Advance, StopWindows>(),
     /* waiting   */ telling | set<StopWindows>(),
+    /* saving    */ telling | set<StopWindows, Saved>(),
     /* finishing */ telling | set<Report, Bye>(),
     /* closed    */ set<Beat>(),  // one that crossed our BYE_ACK
 };
@@ -38,7 +39,7 @@ constexpr std::array<std::uint32_t, stage_count> legal = {
 
 const char* stage_name(Stage stage) {
   static constexpr std::array<const char*, stage_count> names = {"absent",    "joined",  "meshed",    "ready",
-                                                                 "computing", "waiting", "finishing", "closed"};
+                                                                 "computing", "waiting", "saving", "finishing", "closed"};
   return names.at(static_cast<std::size_t>(stage));
 }
 

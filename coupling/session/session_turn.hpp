@@ -33,7 +33,15 @@ void take_ready(SessionTurn& turn, Peer& peer, const message::Ready& ready);
 void take_advance(SessionTurn& turn, Peer& peer, const Received& received);
 void take_stop(SessionTurn& turn, Peer& peer, const message::StopWindows& stop);
 void take_bye(SessionTurn& turn, Peer& peer);
+void take_saved(SessionTurn& turn, Peer& peer, const message::Saved& saved);
+void take_committed(SessionTurn& turn, const Committed& committed);
 void start_windows(SessionTurn& turn);
+/// Both sides wait at the end of a window: what comes next.
+void go_on(SessionTurn& turn);
+/// True if the sides were asked to save before window `next` is begun.
+bool begin_checkpoint(SessionTurn& turn, std::int64_t next);
+/// A signal: save first where that is possible.
+void interrupt(SessionTurn& turn, const std::string& reason);
 void watch(SessionTurn& turn);
 
 }  // namespace standoff

@@ -16,6 +16,7 @@ bool is_busy(const Peer& peer) {
       return peer.role == Role::structure;  // the load side waits for the surface
     case Stage::meshed:
     case Stage::computing:
+    case Stage::saving:
     case Stage::finishing:
       return true;
     default:
@@ -99,6 +100,8 @@ void notice_waiting(SessionTurn& turn) {
 void watch(SessionTurn& turn) {
   forgive_own_pause(turn);
   check_deadlines(turn);
+  if (turn.state.over) return;
+  if (!turn.state.stop_reason.empty()) interrupt(turn, turn.state.stop_reason);
   if (turn.state.over) return;
   notice_waiting(turn);
   for (Peer& peer : turn.state.peers)

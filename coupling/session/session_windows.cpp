@@ -31,6 +31,7 @@ void next_parallel(SessionTurn& turn, Peer& load, Peer& structure) {
   if (structure.window == windows) return end_windows(turn, structure);  // drained
   if (load.stage != Stage::waiting) return;
   const std::int64_t next = structure.window + 1;
+  if (begin_checkpoint(turn, next)) return;
   grant(turn, structure, next);
   if (next < windows)
     grant(turn, load, next);
@@ -42,6 +43,7 @@ void next_serial(SessionTurn& turn, Peer& load, Peer& structure) {
   const std::int64_t next = load.window + 1;
   if (load.stage != Stage::waiting || structure.stage != Stage::waiting) return;
   if (structure.window < load.window) return grant(turn, structure, load.window);
+  if (begin_checkpoint(turn, next)) return;
   if (next < turn.state.clock.windows) return grant(turn, load, next);
   end_windows(turn, load);
   end_windows(turn, structure);
@@ -55,13 +57,19 @@ std::vector<FieldShape> fields_of(Role role, std::int64_t nodes) {
 }  // namespace
 
 void start_windows(SessionTurn& turn) {
+  turn.state.last_checkpoint = turn.now;
+  turn.state.checkpoint = turn.state.clock.first;  // there is nothing new to save yet
+  for (Peer& peer : turn.state.peers) {
+    peer.window = turn.state.clock.first - 1;
+    turn.enter(peer, Stage::waiting);
+  }
+  go_on(turn);
+}
+
+void go_on(SessionTurn& turn) {
   Peer& load = *turn.with(Role::load);
   Peer& structure = *turn.with(Role::structure);
-  grant(turn, load, 0);
-  if (turn.state.clock.parallel)
-    grant(turn, structure, 0);
-  else
-    turn.enter(structure, Stage::waiting);
+  turn.state.clock.parallel ? next_parallel(turn, load, structure) : next_serial(turn, load, structure);
 }
 
 void take_advance(SessionTurn& turn, Peer& peer, const Received& received) {
@@ -76,12 +84,7 @@ void take_advance(SessionTurn& turn, Peer& peer, const Received& received) {
   (peer.role == Role::load ? state.load : state.motion) = received.payload;
   peer.totals = advance.totals;
   turn.enter(peer, Stage::waiting);
-  Peer& load = *turn.with(Role::load);
-  Peer& structure = *turn.with(Role::structure);
-  if (state.clock.parallel)
-    next_parallel(turn, load, structure);
-  else
-    next_serial(turn, load, structure);
+  go_on(turn);
 }
 
 void take_stop(SessionTurn& turn, Peer& peer, const message::StopWindows& stop) {

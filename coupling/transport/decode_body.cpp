@@ -44,7 +44,8 @@ message::Hello hello(const wire::Hello& in) {
           in.software_version(),
           in.case_hash(),
           in.pid(),
-          in.host()};
+          in.host(),
+          in.keeps()};
 }
 
 message::Advance advance(const wire::Advance& in) {
@@ -62,7 +63,9 @@ message::Advance advance(const wire::Advance& in) {
 message::Start start(const wire::Start& in) {
   if (!(finite(in.window(), "the window of START") > 0.0) || in.windows() < 1)
     throw ProtocolError(fmt::format("START with {} windows of {} s", in.windows(), in.window()));
-  return {{in.window(), in.windows(), in.parallel()}};
+  if (in.first() < 0 || in.first() > in.windows())
+    throw ProtocolError(fmt::format("START goes on with window {} of {}", in.first(), in.windows()));
+  return {{in.window(), in.windows(), in.parallel(), in.first()}, in.folder(), in.checksum()};
 }
 
 }  // namespace
@@ -107,6 +110,10 @@ Message get_body(const wire::Envelope& from) {
       return message::Sample{finite(from.sample().time(), "the time of SAMPLE"), named(from.sample().values())};
     case wire::Envelope::kReport:
       return message::Report{from.report().json()};
+    case wire::Envelope::kCheckpoint:
+      return message::Checkpoint{from.checkpoint().windows(), from.checkpoint().folder()};
+    case wire::Envelope::kSaved:
+      return message::Saved{from.saved().windows(), from.saved().bytes(), from.saved().checksum()};
     case wire::Envelope::BODY_NOT_SET:
       break;
   }

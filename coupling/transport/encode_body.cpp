@@ -24,6 +24,7 @@ struct Put {
     out->set_case_hash(body.case_hash);
     out->set_pid(body.pid);
     out->set_host(body.host);
+    out->set_keeps(body.keeps);
   }
   void operator()(const message::Welcome& body) {
     wire::Welcome* out = to.mutable_welcome();
@@ -54,6 +55,9 @@ struct Put {
     out->set_window(body.clock.window);
     out->set_windows(body.clock.windows);
     out->set_parallel(body.clock.parallel);
+    out->set_first(body.clock.first);
+    out->set_folder(body.folder);
+    out->set_checksum(body.checksum);
   }
   void operator()(const message::Grant& body) {
     wire::Grant* out = to.mutable_grant();
@@ -90,6 +94,16 @@ struct Put {
     put(body.values, *to.mutable_sample()->mutable_values());
   }
   void operator()(const message::Report& body) { to.mutable_report()->set_json(body.json); }
+  void operator()(const message::Checkpoint& body) {
+    to.mutable_checkpoint()->set_windows(body.windows);
+    to.mutable_checkpoint()->set_folder(body.folder);
+  }
+  void operator()(const message::Saved& body) {
+    wire::Saved* out = to.mutable_saved();
+    out->set_windows(body.windows);
+    out->set_bytes(body.bytes);
+    out->set_checksum(body.checksum);
+  }
 };
 
 }  // namespace

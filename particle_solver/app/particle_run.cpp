@@ -21,6 +21,10 @@ class Every {
     next_ = static_cast<long>((time + slack) / interval_) + 1;
     return true;
   }
+  template <class Archive>
+  void archive(Archive& a) {
+    a(next_);
+  }
 
  private:
   double interval_;
@@ -35,9 +39,10 @@ void run_particles(const CaseSpec& spec, const ParticleRunOptions& options, Part
   TimeLoop loop(spec, scene, options.threads);
   ParticleBooks books(spec, scene, loop);
   ParticleFiles files(options.out);
+  Every row(spec.observe.interval), frame(spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots)));
+  link.keep([&](auto& archive) { archive(loop, books, files, row, frame); });
   const CouplingClock clock = link.ready({loop.stable_step(), window_limit(spec, scene)});
 
-  Every row(spec.observe.interval), frame(spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots)));
   Stopwatch since_progress;
   auto observe = [&](double time, long window) {
     const double slack = 0.5 * clock.window;
@@ -49,7 +54,7 @@ void run_particles(const CaseSpec& spec, const ParticleRunOptions& options, Part
       since_progress = {};
     }
   };
-  observe(0.0, 0);
+  if (clock.first == 0) observe(0.0, 0);
   SurfaceLoad load;
   while (const auto grant = link.next()) {
     scene.sheet.begin_window(grant->motion, clock.parallel);

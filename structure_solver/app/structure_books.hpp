@@ -28,6 +28,10 @@ class StructureBooks {
   /// Nested as in run.json.
   nlohmann::json report(const StructuralModel& model, const RelaxationResult* relaxation, long steps,
                         const Participant::Times& times) const;
+  template <class Archive>
+  void archive(Archive& a) {
+    a(peak_kinetic_, peak_deflection_, peak_work_, largest_gap_, momentum_residual_, impulse_scale_);
+  }
 
  private:
   const CaseSpec& spec_;

@@ -27,6 +27,10 @@ class PlateFiles {
     for (const auto& [name, values] : now.cell_data) grid.cell_data.push_back(vtk_array(name, values));
     series_->add(time, vtu_text(grid));
   }
+  template <class Archive>
+  void archive(Archive& a) {
+    if (series_) a(*series_);
+  }
   void profile(const StructuralModel& model) const {
     if (folder_.empty()) return;
     std::vector<std::vector<double>> rows;
@@ -47,6 +51,14 @@ double window_limit(const CaseSpec& spec) {
   const double nu = m.poissons_ratio;
   const double modulus = m.youngs_modulus * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
   return 2.0 * spec.plate.size.z / std::sqrt(modulus / m.density);
+}
+
+template <class Archive>
+void archive_model(Archive& a, StructuralModel& model) {
+  if constexpr (Archive::reading)
+    model.restore(a);
+  else
+    model.save(a);
 }
 
 /// Equal steps that fill a window and respect the stable step. Returns how many.
@@ -83,12 +95,16 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
   StructureBooks books(spec);
   SurfaceMotion motion;
 
+  const double frame_interval = spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots));
+  long steps = 0, samples = 0, frames = 0;
   link.offer_surface(model->surface());
+  link.keep([&](auto& archive) {
+    archive_model(archive, *model);
+    archive(books, files, steps, samples, frames);
+  });
   const CouplingClock clock = link.ready({model->stable_step(), window_limit(spec)});
   model->surface_motion(motion);
 
-  const double frame_interval = spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots));
-  long steps = 0, samples = 0, frames = 0;
   auto observe = [&](double time) {
     books.observe(*model);
     const double slack = 0.5 * clock.window;
@@ -101,7 +117,7 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
       frames = static_cast<long>((time + slack) / frame_interval) + 1;
     }
   };
-  observe(0.0);
+  if (clock.first == 0) observe(0.0);
   while (const auto grant = link.next()) {
     model->set_surface_force(grant->load.force);
     steps += advance_model(*model, clock.window);

@@ -56,8 +56,13 @@ TEST(Codec, EveryKind_ComesBackAsItWas) {
   EXPECT_TRUE(reject.code == ExitCode::bad_case && reject.reason == "why" && reject.remedy == "what");
   const auto ready = std::get<message::Ready>(there_and_back(message::Ready{{1e-7, 2e-7}, "d"}).body);
   EXPECT_TRUE(ready.needs.stable_step == 1e-7 && ready.needs.window_limit == 2e-7 && ready.surface_digest == "d");
-  const auto start = std::get<message::Start>(there_and_back(message::Start{{0.1 + 0.2, 7, false}}).body);
+  const auto start = std::get<message::Start>(there_and_back(message::Start{{0.1 + 0.2, 7, false, 3}, "/f", 9}).body);
   EXPECT_TRUE(start.clock.window == 0.1 + 0.2 && start.clock.windows == 7 && !start.clock.parallel);
+  EXPECT_TRUE(start.clock.first == 3 && start.folder == "/f" && start.checksum == 9);
+  const auto saved = std::get<message::Saved>(there_and_back(message::Saved{5, 1ll << 40, 0xFFFFFFFF}).body);
+  EXPECT_TRUE(saved.windows == 5 && saved.bytes == 1ll << 40 && saved.checksum == 0xFFFFFFFF);
+  const auto order = std::get<message::Checkpoint>(there_and_back(message::Checkpoint{5, "/\xff"}).body);
+  EXPECT_TRUE(order.windows == 5 && order.folder == "/\xff");
   const auto grant = std::get<message::Grant>(there_and_back(message::Grant{5, 0.5, true}).body);
   EXPECT_TRUE(grant.window == 5 && grant.begin == 0.5 && grant.drain);
   const auto advance = std::get<message::Advance>(there_and_back(message::Advance{4, {{1, 2, 3}, 4}, 5, 6}).body);

@@ -1,6 +1,6 @@
 // Law: the protocol is a table of (stage, message). A legal message moves the sender to the stage named here or leaves
 // it; every other one ends the run with code 4, is told to both sides, and names the message, the stage and what was
-// expected. All 8 x 16 pairs are tried for the load side and for the structure. No tolerances.
+// expected. All 9 x 18 pairs are tried for the load side and for the structure. No tolerances.
 #include <map>
 
 #include <gtest/gtest.h>
@@ -33,14 +33,18 @@ std::vector<std::pair<Message, std::vector<FieldShape>>> one_of_each(const std::
           {message::ByeAck{}, {}},
           {message::Progress{}, {}},
           {message::Sample{}, {}},
-          {message::Report{"{}"}, {}}};
+          {message::Report{"{}"}, {}},
+          {message::Checkpoint{}, {}},
+          {message::Saved{1, 8, 0}, {}}};
 }
 
 /// Brings `name` into `stage`; the partner is where the protocol then puts it.
 VirtualSession session_in(Stage stage, const std::string& name) {
   const bool load = name == "particles";
   const std::string other = load ? "structure" : "particles";
-  VirtualSession run;
+  SessionRules rules = VirtualSession::default_rules();
+  if (stage == Stage::saving) rules.checkpoint = {"/run/checkpoint", 0.0, 1};
+  VirtualSession run(rules);
   if (stage == Stage::absent) return run;
   run.join(name, load ? Role::load : Role::structure);
   if (stage == Stage::joined) return run;
@@ -54,6 +58,7 @@ VirtualSession session_in(Stage stage, const std::string& name) {
   run.advance(name, 0);
   if (stage == Stage::waiting) return run;
   run.advance(other, 0);
+  if (stage == Stage::saving) return run;
   for (std::int64_t k = 1; k < 4; ++k) run.advance("particles", k), run.advance("structure", k);
   run.advance("structure", 4);  // drain
   if (stage == Stage::finishing) return run;

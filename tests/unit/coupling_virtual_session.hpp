@@ -41,7 +41,7 @@ class VirtualSession {
     }
   }
 
-  void join(const std::string& name, Role role) { say(name, message::Hello{name, role, "v", "case", 1, "host"}); }
+  void join(const std::string& name, Role role) { say(name, message::Hello{name, role, "v", "case", 1, "host", keeps}); }
   void offer_surface() {
     say("structure", message::Surface{2, 1, "digest"},
         {{"position", DataType::f64, 3, 2}, {"quads", DataType::i32, 4, 1}, {"node_mass", DataType::f64, 1, 2}});
@@ -51,6 +51,14 @@ class VirtualSession {
     std::vector<FieldShape> fields = {{"position", DataType::f64, 3, 2}, {"velocity", DataType::f64, 3, 2}};
     if (name == "particles") fields = {{"force", DataType::f64, 3, 2}};
     say(name, message::Advance{window, {{0.0, 0.0, 1.0 + static_cast<double>(window)}, 2.0}, 0.0, 0.0}, fields);
+  }
+  void saved(const std::string& name, std::int64_t windows) { say(name, message::Saved{windows, 100, 7}); }
+  /// Halves of checkpoints that the broker was told to commit, oldest first.
+  std::vector<InterfaceState> commits() const {
+    std::vector<InterfaceState> found;
+    for (const SessionAction& action : actions)
+      if (const auto* commit = std::get_if<Commit>(&action)) found.push_back(commit->state);
+    return found;
   }
   /// Both sides at their first window.
   void start() {
@@ -95,6 +103,7 @@ class VirtualSession {
   SessionState state;
   std::vector<SessionAction> actions;
   double now = 0.0;
+  bool keeps = true;  // who joins can save
 };
 
 }  // namespace standoff::test
