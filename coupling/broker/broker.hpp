@@ -12,7 +12,7 @@ struct BrokerOptions {
   std::string listen;     // "ipc:///folder/name" or "tcp://127.0.0.1:port"
   bool insecure = false;  // allow an address that other machines can reach
   SessionRules rules;
-  std::string build;  // names this program in a checkpoint
+  std::string build;                                   // names this program in a checkpoint
   std::function<void(const std::string& line)> print;  // one event line, without its end
 };
 

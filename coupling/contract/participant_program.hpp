@@ -17,7 +17,7 @@ struct ParticipantIdentity {
   std::string program;  // as typed
   std::string name;     // in the run
   Role role = Role::load;
-  std::string does;  // one line of help
+  std::string does;   // one line of help
   bool keeps = true;  // takes part in checkpoints: calls Participant::keep
 };
 

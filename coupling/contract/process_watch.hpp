@@ -5,8 +5,8 @@
 
 namespace standoff {
 
-/// From now on SIGINT and SIGTERM are noted instead of ending the process, SIGPIPE and SIGXFSZ are ignored, and the parent is
-/// watched unless it is the system's own first process. Call once, at the start of main.
+/// From now on SIGINT and SIGTERM are noted instead of ending the process, SIGPIPE and SIGXFSZ are ignored, and the
+/// parent is watched unless it is the system's own first process. Call once, at the start of main.
 void watch_process();
 
 /// Empty while there is no reason; otherwise a sentence. Costs a system call.

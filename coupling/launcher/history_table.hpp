@@ -21,7 +21,8 @@ class HistoryTable {
 
   /// Takes one half and returns the text that histories.csv grows by, often nothing.
   std::string add(const SampleEvent& half);
-  /// Goes on with a table that was written before: returns the rows of `text` up to `time` [s], knows its columns again.
+  /// Goes on with a table that was written before: returns the rows of `text` up to `time` [s], knows its columns
+  /// again.
   std::string take_up(const std::string& text, double time);
   /// At the end of a run that broke off: the rows that miss a half, with empty fields.
   std::string finish();

@@ -1,8 +1,9 @@
 #pragma once
 // Watches the processes of a run until all have ended: reads their outputs, waits for their ends, obeys signals and the
 // time limit. The first thing that goes wrong is the outcome; everything after it is a consequence. Stopping: SIGTERM
-// to every process group, SIGKILL after a grace time, never longer than 10 s in all. A run that is interrupted or out of
-// time is asked through its broker first, which saves a checkpoint where it can: longer only while it says that it does.
+// to every process group, SIGKILL after a grace time, never longer than 10 s in all. A run that is interrupted or out
+// of time is asked through its broker first, which saves a checkpoint where it can: longer only while it says that it
+// does.
 #include <chrono>
 #include <functional>
 #include <optional>

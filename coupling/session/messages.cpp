@@ -6,8 +6,8 @@ namespace standoff {
 
 const char* message_name(std::size_t kind) {
   static constexpr std::array<const char*, message_kinds> names = {
-      "HELLO", "WELCOME", "REJECT", "SURFACE", "READY",   "START",    "GRANT",  "ADVANCE",
-      "STOP",  "BEAT",    "ABORT",  "BYE",     "BYE_ACK", "PROGRESS", "SAMPLE", "REPORT", "CHECKPOINT", "SAVED"};
+      "HELLO", "WELCOME", "REJECT", "SURFACE", "READY",    "START",  "GRANT",  "ADVANCE",    "STOP",
+      "BEAT",  "ABORT",   "BYE",    "BYE_ACK", "PROGRESS", "SAMPLE", "REPORT", "CHECKPOINT", "SAVED"};
   return names.at(kind);
 }
 

@@ -24,7 +24,7 @@ struct WindowNeeds {
 struct CouplingClock {
   double window = 0.0;  // s
   std::int64_t windows = 0;
-  bool parallel = true;  // load and motion of window k-1 feed window k; otherwise the load side goes first
+  bool parallel = true;    // load and motion of window k-1 feed window k; otherwise the load side goes first
   std::int64_t first = 0;  // window that a continued run goes on with
 };
 
@@ -126,11 +126,10 @@ struct Saved {
 }  // namespace message
 
 /// In the order of the wire's body tags; message_name and the table of legal messages follow it.
-using Message =
-    std::variant<message::Hello, message::Welcome, message::Reject, message::Surface, message::Ready, message::Start,
-                 message::Grant, message::Advance, message::StopWindows, message::Beat, message::Abort, message::Bye,
-                 message::ByeAck, message::Progress, message::Sample, message::Report, message::Checkpoint,
-                 message::Saved>;
+using Message = std::variant<message::Hello, message::Welcome, message::Reject, message::Surface, message::Ready,
+                             message::Start, message::Grant, message::Advance, message::StopWindows, message::Beat,
+                             message::Abort, message::Bye, message::ByeAck, message::Progress, message::Sample,
+                             message::Report, message::Checkpoint, message::Saved>;
 constexpr std::size_t message_kinds = std::variant_size_v<Message>;
 
 /// "HELLO", "GRANT", ...

@@ -33,8 +33,8 @@ struct Deadlines {
 
 /// When the sides are asked to save. A last checkpoint is always made before the structure comes to rest.
 struct CheckpointRule {
-  std::string folder;             // holds window-NUMBER folders; empty: never
-  double every = 60.0;            // s of wall clock; 0: not by time
+  std::string folder;              // holds window-NUMBER folders; empty: never
+  double every = 60.0;             // s of wall clock; 0: not by time
   std::int64_t every_windows = 0;  // 0: not by count
 };
 
@@ -187,10 +187,10 @@ struct Failed {
 };
 struct Done {};
 }  // namespace announce
-using Announcement = std::variant<announce::Joined, announce::Rejected, announce::Clock, announce::Waiting,
-                                  announce::Progress, announce::Sample, announce::Report, announce::Stopping,
-                                  announce::Interface, announce::Saving, announce::Checkpoint, announce::Failed,
-                                  announce::Done>;
+using Announcement =
+    std::variant<announce::Joined, announce::Rejected, announce::Clock, announce::Waiting, announce::Progress,
+                 announce::Sample, announce::Report, announce::Stopping, announce::Interface, announce::Saving,
+                 announce::Checkpoint, announce::Failed, announce::Done>;
 
 /// What is to be done.
 struct Send {

@@ -48,8 +48,8 @@ void forward_surface(SessionTurn& turn) {
 
 void set_clock(SessionTurn& turn) {
   SessionState& state = turn.state;
-  state.clock = decide_clock(state.rules.until, state.rules.parallel, state.rules.window,
-                             turn.with(Role::load)->needs, turn.with(Role::structure)->needs);
+  state.clock = decide_clock(state.rules.until, state.rules.parallel, state.rules.window, turn.with(Role::load)->needs,
+                             turn.with(Role::structure)->needs);
 }
 
 /// The interface as it was when the checkpoint was made.

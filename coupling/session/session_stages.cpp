@@ -38,8 +38,8 @@ constexpr std::array<std::uint32_t, stage_count> legal = {
 }  // namespace
 
 const char* stage_name(Stage stage) {
-  static constexpr std::array<const char*, stage_count> names = {"absent",    "joined",  "meshed",    "ready",
-                                                                 "computing", "waiting", "saving", "finishing", "closed"};
+  static constexpr std::array<const char*, stage_count> names = {"absent",  "joined", "meshed",    "ready", "computing",
+                                                                 "waiting", "saving", "finishing", "closed"};
   return names.at(static_cast<std::size_t>(stage));
 }
 

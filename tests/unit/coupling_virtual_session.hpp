@@ -41,7 +41,9 @@ class VirtualSession {
     }
   }
 
-  void join(const std::string& name, Role role) { say(name, message::Hello{name, role, "v", "case", 1, "host", keeps}); }
+  void join(const std::string& name, Role role) {
+    say(name, message::Hello{name, role, "v", "case", 1, "host", keeps});
+  }
   void offer_surface() {
     say("structure", message::Surface{2, 1, "digest"},
         {{"position", DataType::f64, 3, 2}, {"quads", DataType::i32, 4, 1}, {"node_mass", DataType::f64, 1, 2}});
