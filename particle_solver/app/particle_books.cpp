@@ -89,7 +89,6 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
   if (scene_.has_gas) {
     counts["charge_particles"] = scene_.charge_particles * spec_.copies();
     counts["simulated_charge_particles"] = scene_.charge_particles;
-    if (spec_.effect("detonation_timing")) counts["simulated_released_early_by_a_hit"] = totals.early_releases;
   }
   if (scene_.has_sand) {
     counts["sand_particles"] = scene_.sand_particles * spec_.copies();

@@ -1,41 +1,52 @@
 #pragma once
 // A particle of explosive that the detonation has not reached stands still, but owns its velocity-to-be v0 and its
 // internal energy: E = m v0^2 / 2 + e never changes while it waits. Gas that strikes it bounces off as off an infinite
-// mass (v' = v - 2 (v.n) n), and the impulse J it takes is stored. At release
-//   v = v0 + J / m,   e = E - m v^2 / 2,
-// so momentum (counting m v0 + J for those that wait) and energy are exact at every moment.
+// mass (v' = v - 2 (v.n) n), and the impulse J it takes is stored. Its time of release is t = L / D, L its distance
+// from the detonator [Borvik 2011, sec. 3.2], whatever struck it. Then
+//   v = s (v0 + J / m),   e = E - m v^2 / 2,   s = min(1, sqrt(E / (m |v0 + J / m|^2 / 2))),
+// and what its energy cannot carry, (1 - s) (m v0 + J), is handed to particles beside it that still wait, ahead of the
+// front: the impulse of the products travels with the front. So momentum (counting m v0 + J for those that wait) and
+// energy are exact at every moment, and nothing is released early. s is a rule of ours; that the mean impulse can be
+// carried follows from the detonation itself, whose products move at D / (gamma + 1), a share (gamma - 1) / (gamma + 1)
+// of the energy of reaction D^2 / 2 (gamma^2 - 1) [Fickett & Davis, Detonation, 1979, sec. 2C].
 //
-// J could exceed what E can pay for. A hit that would bring m |v0 + J/m|^2 / 2 above 0.98 E therefore releases the
-// particle first and is an ordinary collision then. Release time of the undisturbed particle: t = L / D, L its distance
-// from the detonator [Borvik 2011, sec. 3.2].
+// Where nobody near waits any more, a group of n particles already released takes the rest R: all get R / (n m), and
+// the energy for it comes from the motion relative to the group's mean V and from the reservoirs, both scaled by
+//   f = 1 - (R.V + R^2 / (2 n m)) / E_thermal,   E_thermal = sum m |v - V|^2 / 2 + sum e;   f > 0 is needed.
 //
-// Symbols: m [kg], v0, v [m/s], J [N s], e, E [J].
+// Symbols: m [kg], v0, v, V [m/s], J, R [N s], e, E [J]. No stability limit.
 #include <algorithm>
+#include <cmath>
 
 #include "coupling/base/vec3.hpp"
 
 namespace standoff::particles {
 
-inline constexpr double largest_kinetic_share_unreleased = 0.98;
-
 struct Release {
   Vec3 velocity;                 // m/s
   double internal_energy = 0.0;  // J
+  Vec3 handed_on;                // N s, what the particle's energy cannot carry
 };
-
-/// True if the stored impulse would use up the particle's energy.
-inline bool must_release(double mass, const Vec3& velocity, double internal_energy, const Vec3& impulse) {
-  const double energy = 0.5 * mass * squared_norm(velocity) + internal_energy;
-  return 0.5 * mass * squared_norm(velocity + impulse / mass) > largest_kinetic_share_unreleased * energy;
-}
 
 /// State of the particle once it moves.
 inline Release release(double mass, const Vec3& velocity, double internal_energy, const Vec3& impulse) {
+  const double energy = 0.5 * mass * squared_norm(velocity) + internal_energy;
+  const Vec3 wanted = velocity * mass + impulse;
+  const double needed = 0.5 * squared_norm(wanted) / mass;
   Release result;
-  result.velocity = velocity + impulse / mass;
-  const double gain = 0.5 * mass * (squared_norm(result.velocity) - squared_norm(velocity));
-  result.internal_energy = std::max(0.0, internal_energy - gain);
+  result.velocity = wanted / mass;
+  if (needed > energy) {
+    result.velocity *= std::sqrt(energy / needed);
+    result.handed_on = wanted - result.velocity * mass;
+  }
+  result.internal_energy = std::max(0.0, energy - 0.5 * mass * squared_norm(result.velocity));
   return result;
+}
+
+/// f: what is left of the thermal energy of a group of mass `group` and mean velocity V that takes the impulse R.
+inline double thermal_share_left(double group, const Vec3& mean, const Vec3& rest, double thermal) {
+  const double price = dot(rest, mean) + 0.5 * squared_norm(rest) / group;
+  return thermal > 0.0 ? 1.0 - price / thermal : 0.0;
 }
 
 }  // namespace standoff::particles

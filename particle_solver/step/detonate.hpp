@@ -1,5 +1,6 @@
 #pragma once
 // Stage detonate: lets gas particles go when the detonation front has reached them, t >= L / D [Borvik 2011, sec. 3.2].
+// An impulse that a particle cannot carry goes to its neighbours ahead of the front (kernels/gas_release.hpp).
 // Once none waits, the arrays of waiting are freed and later sub-steps do not test for them.
 #include "particle_solver/state/media.hpp"
 

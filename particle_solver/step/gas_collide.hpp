@@ -28,7 +28,6 @@ namespace standoff::particles {
 struct GasCollideCounts {
   long gas_hits = 0, sand_hits = 0, sheet_hits = 0, mirror_hits = 0;
   long unreleased_hits = 0;  // on gas that waits for the detonation
-  long early_releases = 0;   // waiting particles that were hit loose
   long searches = 0;         // bodies that looked for their earliest hit, over all rounds
   long candidates = 0;       // gas in the cells that these searches read
   long deferred = 0;         // hits left for the next sub-step by the limit on rounds (gas_collide.cpp); normally 0

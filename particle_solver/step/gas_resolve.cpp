@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "particle_solver/kernels/gas_pair_impulse.hpp"
-#include "particle_solver/kernels/gas_release.hpp"
 #include "particle_solver/kernels/larsen_borgnakke.hpp"
 #include "particle_solver/step/gas_work.hpp"
 
@@ -168,44 +167,23 @@ void in_order_of_time(const Work& work, std::vector<Index>& bodies) {
   });
 }
 
-/// Body p meets the unreleased body q: a wall, unless q can take no more and comes loose. False: q is gone, look again.
-bool meet_unreleased(Work& work, GasState& gas, Index p, Index q, GasCollideCounts& counts) {
-  Body &body = work.body[p], &target = work.body[q];
-  if (!work.is_unreleased(q)) return false;
-  const double time = work.choice[p].time;
-  const Index k = target.source;
-  const Vec3 gap = wrapped(work, target.start - body.start) - body.velocity * time;
-  const Vec3 n = line_of_centres(gap, -body.velocity);
-  const Vec3 change = n * (-2.0 * dot(body.velocity, n)), impulse = change * -work.mass;
-  if (!must_release(work.mass, gas.velocity[k], gas.internal_energy[k], gas.latent_impulse[k] + impulse)) {
-    change_velocity(body.start, body.velocity, change, time);
-    body.since = time;
-    gas.latent_impulse[k] += impulse;
-    ++counts.unreleased_hits;
-    touch(work, p);
-    return true;
-  }
-  const Release loose = release(work.mass, gas.velocity[k], gas.internal_energy[k], gas.latent_impulse[k]);
-  work.unreleased[q] = 0;
-  gas.released[k] = 1;
-  gas.latent_impulse[k] = {};
-  gas.velocity[k] = loose.velocity;
-  gas.internal_energy[k] = loose.internal_energy;
-  change_velocity(target.start, target.velocity, loose.velocity, time);
-  target.since = time;
-  touch(work, q);
-  ++counts.early_releases;
-  const bool approaching = dot(target.velocity - body.velocity, n) < 0.0;
-  if (!approaching) return false;
-  counts.pair_virial += collide(work, gas, p, q, time);
-  ++counts.gas_hits;
-  touch(work, p);
-  return true;
-}
-
+/// Bodies that meet unreleased gas: a wall that remembers what it took. In the order of time, because several may share
+/// a target and sums depend on their order.
 void resolve_unreleased(Work& work, GasState& gas, std::vector<Index>& bodies, GasCollideCounts& counts) {
   in_order_of_time(work, bodies);
-  for (const Index p : bodies) meet_unreleased(work, gas, p, work.choice[p].partner, counts);
+  for (const Index p : bodies) {
+    Body& body = work.body[p];
+    const Body& target = work.body[work.choice[p].partner];
+    const double time = work.choice[p].time;
+    const Vec3 gap = wrapped(work, target.start - body.start) - body.velocity * time;
+    const Vec3 n = line_of_centres(gap, -body.velocity);
+    const Vec3 change = n * (-2.0 * dot(body.velocity, n));
+    change_velocity(body.start, body.velocity, change, time);
+    body.since = time;
+    gas.latent_impulse[target.source] -= change * work.mass;
+    touch(work, p);
+  }
+  counts.unreleased_hits += static_cast<long>(bodies.size());
 }
 
 /// Hits on the sheet one after the other. Each moves the sheet, so the next one is looked up again: the wall has

@@ -85,7 +85,6 @@ void TimeLoop::compose() {
       totals_.impulse_gas += last_gas_.plate_impulse;
       totals_.incoming += last_gas_.plate_incoming;
       totals_.deferred_hits += last_gas_.deferred;
-      totals_.early_releases += last_gas_.early_releases;
       books_.mirror_impulse += last_gas_.mirror_impulse;
     });
     add(sub_step_, "gas_drift", [this, sand](double, double h) { gas_drift(scene_.gas, sand, &scene_.sheet, h); });

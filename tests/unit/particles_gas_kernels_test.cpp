@@ -85,8 +85,19 @@ TEST(Release_AfterHits, KeepsEnergyAndGivesTheImpulseBack) {
   EXPECT_LT(norm(loose.velocity * mass - velocity * mass - impulse), 1e-17);
   const double old_total = 0.5 * mass * squared_norm(velocity) + energy;
   EXPECT_NEAR(0.5 * mass * squared_norm(loose.velocity) + loose.internal_energy, old_total, 1e-15 * old_total * 4);
-  EXPECT_FALSE(must_release(mass, velocity, energy, impulse));
-  EXPECT_TRUE(must_release(mass, velocity, energy, impulse * 10.0));
+  EXPECT_EQ(norm(loose.handed_on), 0.0);
+}
+
+TEST(Release_StruckHarderThanItCanCarry_SpendsAllItsEnergyAndHandsTheRestOn, SameDirection) {
+  const double mass = 2e-5, energy = 40.0;
+  const Vec3 velocity{1000, -500, 200}, impulse{0.1, 0.2, -0.04};
+  const Release loose = release(mass, velocity, energy, impulse);
+  const double total = 0.5 * mass * squared_norm(velocity) + energy;
+  const Vec3 wanted = velocity * mass + impulse;
+  EXPECT_LT(norm(loose.velocity * mass + loose.handed_on - wanted), 1e-15 * norm(wanted));
+  EXPECT_NEAR(0.5 * mass * squared_norm(loose.velocity) + loose.internal_energy, total, 1e-15 * total * 4);
+  EXPECT_NEAR(loose.internal_energy, 0.0, 1e-15 * total * 4);
+  EXPECT_LT(norm(cross(loose.velocity, wanted)), 1e-15 * norm(loose.velocity) * norm(wanted) * 4);
 }
 
 }  // namespace
