@@ -7,6 +7,7 @@
 
 #include "particle_solver/packing/charge.hpp"
 #include "particle_solver/packing/sand_shell.hpp"
+#include "particle_solver/step/detonate.hpp"
 
 namespace standoff::particles {
 namespace {
@@ -26,7 +27,10 @@ Scene build_scene(const CaseSpec& spec, const SurfaceMesh& mesh, int threads) {
   const bool quarter = spec.run.quarter_symmetry;
   scene.has_gas = spec.charge.present;
   scene.has_sand = spec.soil.kind != SoilKind::none;
-  if (scene.has_gas) scene.gas = build_charge(spec.charge, scene.centre, spec.copies(), spec.run.seed);
+  if (scene.has_gas) {
+    scene.gas = build_charge(spec.charge, scene.centre, spec.copies(), spec.run.seed);
+    if (!spec.effect("detonation_timing")) detonate(scene.gas, std::numeric_limits<double>::infinity());
+  }
   if (scene.has_sand) {
     SandBody body =
         fill_shell(spec.soil, {.centre = scene.centre, .quarter = quarter, .seed = spec.run.seed, .threads = threads});

@@ -30,8 +30,8 @@ struct LoopTotals {
   double contact_elastic = 0.0;                  // J now, with the soil's own law at the plate
   double max_penetration_over_radius = 0.0;
   long deferred_hits = 0;
-  double step = 0.0;        // s, the last
-  std::string limited_by;   // what limited it
+  double step = 0.0;       // s, the last
+  std::string limited_by;  // what limited it
   template <class Archive>
   void archive(Archive& a) {
     a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, incoming, contact_loss, contact_elastic);

@@ -5,6 +5,7 @@
 // diameter of 1 mm: 1e-9 of d is ample.
 #include <gtest/gtest.h>
 
+#include "coupling/base/stop.hpp"
 #include "particle_solver/packing/charge.hpp"
 #include "tests/unit/particles_gas_scenes.hpp"
 
@@ -71,6 +72,31 @@ TEST(Detonate_UndisturbedParticle_IsReleasedWhenTheFrontArrives, DistanceOverSpe
   EXPECT_FALSE(gas.all_released());
   EXPECT_EQ(first + detonate(gas, late), 100);
   EXPECT_TRUE(gas.all_released());
+}
+
+TEST(Detonate_FromTheCentre_TheOutermostHandTheirRestToProducts, EnergyAndMomentumExact) {
+  ChargeSpec charge = c4(800, 0.35);
+  charge.detonator = {0, 0, 0.15};
+  GasState gas = build_charge(charge, {0, 0, 0.15}, 1, 3);
+  // More than all that wait could carry together: 1.5 times m sqrt(2 E / m) each, outwards, on every particle.
+  const double energy = gas_totals(gas).energy(), each = 1.5 * std::sqrt(2.0 * energy * gas.mass / 800.0);
+  for (std::size_t i = 0; i < gas.size(); ++i) {
+    const Vec3 out = gas.position[i] - Vec3{0, 0, 0.15};
+    gas.latent_impulse[i] = out / norm(out) * each;
+  }
+  const Vec3 momentum = gas_totals(gas).momentum;
+  for (double time = 0.0; !gas.all_released(); time += 1e-7) {
+    detonate(gas, time);
+    ASSERT_NEAR(gas_totals(gas).energy(), energy, 1e-12 * energy);
+    ASSERT_LT(norm(gas_totals(gas).momentum - momentum), 1e-12 * 800.0 * each);
+  }
+  for (const double e : gas.internal_energy) EXPECT_GE(e, 0.0);
+}
+
+TEST(Detonate_ImpulseBeyondAllEnergy_StopsWithAReason, NothingIsInvented) {
+  GasState gas = build_charge(c4(400, 0.2), {0, 0, 0.15}, 4, 1);
+  for (Vec3& impulse : gas.latent_impulse) impulse.z = -10.0;
+  EXPECT_THROW(detonate(gas, 1.0), Stop);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(ResumedParticles, StoppedWhileTheChargeDetonates_GoOnWithTheSameBits) {
   probe.run(0, 3);
   EXPECT_FALSE(probe.scene.gas.all_released()) << "6 us: the front is still in the charge";
   EXPECT_GT(probe.loop.totals().sub_steps, 0);
-  expect_same_bits(spec, 3, 12, 2);
+  expect_same_bits(spec, 3, 20, 2);
 }
 
 TEST(ResumedParticles, StoppedWithSlidingContacts_GoOnWithTheSameBits) {
