@@ -20,13 +20,13 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-std::vector<Vec3> spread(const ChargePositions& wanted) {
+std::vector<Vec3> spread(const ChargePositions& wanted, std::size_t count) {
   constexpr double g = 1.2207440846057594754;  // positive root of g^4 = g + 1
   CounterRandom shift(wanted.seed, RandomUse::gas_position, 0xFFFFFFFFu);
   const double s0 = shift.uniform(), s1 = shift.uniform(), s2 = shift.uniform();
-  const double jitter = std::cbrt(1.0 / static_cast<double>(wanted.count)) / 3.0;
-  std::vector<Vec3> centre(wanted.count);
-  for (std::size_t i = 0; i < wanted.count; ++i) {
+  const double jitter = std::cbrt(1.0 / static_cast<double>(count)) / 3.0;
+  std::vector<Vec3> centre(count);
+  for (std::size_t i = 0; i < count; ++i) {
     CounterRandom random(wanted.seed, RandomUse::gas_position, static_cast<std::uint32_t>(i));
     const double n = static_cast<double>(i);
     const auto coordinate = [&](double s, double step) {
@@ -34,26 +34,14 @@ std::vector<Vec3> spread(const ChargePositions& wanted) {
     };
     const double u = coordinate(s0, 1.0 / g), v = coordinate(s1, 1.0 / (g * g)), w = coordinate(s2, 1.0 / (g * g * g));
     const double r = wanted.ball_radius * std::cbrt(u), z = 1.0 - 2.0 * v, across = std::sqrt(1.0 - z * z);
-    const double angle = w * (wanted.quarter ? 0.25 * two_pi : two_pi);
-    centre[i] = {r * across * std::cos(angle), r * across * std::sin(angle), r * z};
+    centre[i] = {r * across * std::cos(two_pi * w), r * across * std::sin(two_pi * w), r * z};
   }
   return centre;
 }
 
 void keep_inside(const ChargePositions& wanted, Vec3& x) {
-  if (wanted.quarter) {
-    x.x = std::max(x.x, wanted.sphere_radius);
-    x.y = std::max(x.y, wanted.sphere_radius);
-  }
   const double distance = norm(x);
-  if (distance <= wanted.ball_radius) return;
-  // Towards the centre, or along the mirror planes where the way to the centre would leave them.
-  x *= wanted.ball_radius / distance;
-  if (!wanted.quarter) return;
-  x.x = std::max(x.x, wanted.sphere_radius);
-  x.y = std::max(x.y, wanted.sphere_radius);
-  const double left = wanted.ball_radius * wanted.ball_radius - x.x * x.x - x.y * x.y;
-  if (left >= 0.0) x.z = std::clamp(x.z, -std::sqrt(left), std::sqrt(left));
+  if (distance > wanted.ball_radius) x *= wanted.ball_radius / distance;
 }
 
 /// One sweep; returns the smallest distance of two centres before it [m].
@@ -82,25 +70,51 @@ double sweep(const ChargePositions& wanted, GasCellGrid& grid, std::vector<Vec3>
   return std::sqrt(smallest);
 }
 
-}  // namespace
-
-std::vector<Vec3> charge_positions(const ChargePositions& wanted) {
-  if (wanted.quarter && wanted.ball_radius < 2.0 * wanted.sphere_radius)
-    throw Stop(ExitCode::bad_case,
-               fmt::format("charge: spheres of radius {} m are too large for a quarter of a ball of radius {} m: raise "
-                           "charge.particles or simulate the full charge",
-                           wanted.sphere_radius, wanted.ball_radius));
-  std::vector<Vec3> centre = spread(wanted), sorted;
-  for (Vec3& x : centre) keep_inside(wanted, x);
+std::vector<Vec3> packed_ball(const ChargePositions& wanted, std::size_t count) {
+  std::vector<Vec3> centre = spread(wanted, count), sorted;
   GasCellGrid grid;
-  grid.shape(wanted.count, 2.0 * wanted.sphere_radius * oversize);
+  grid.shape(count, 2.0 * wanted.sphere_radius * oversize);
   for (int sweeps = 0; sweeps < most_sweeps; ++sweeps)
     if (sweep(wanted, grid, centre, sorted) >= 2.0 * wanted.sphere_radius * (1.0 + 1e-9)) return sorted;
   throw Stop(
       ExitCode::bad_case,
       fmt::format("charge: {} spheres of radius {} m still overlap in a ball of radius {} m after {} sweeps; lower "
                   "the fill fraction",
-                  wanted.count, wanted.sphere_radius, wanted.ball_radius, most_sweeps));
+                  count, wanted.sphere_radius, wanted.ball_radius, most_sweeps));
+}
+
+/// The angle about z from which the next right angle holds exactly a quarter of the centres. One exists: as the angle
+/// goes round, the number changes by one at a time, and over the four quarters its mean is a quarter of all.
+double angle_of_fair_quarter(const std::vector<Vec3>& centre) {
+  const std::size_t count = centre.size(), quarter = count / 4;
+  std::vector<double> angle(count);
+  for (std::size_t i = 0; i < count; ++i) angle[i] = std::atan2(centre[i].y, centre[i].x);
+  std::sort(angle.begin(), angle.end());
+  const auto at = [&](std::size_t i) { return i < count ? angle[i] : angle[i - count] + two_pi; };
+  for (std::size_t i = 0; i < count; ++i) {  // the quarter that begins between centres i and i + 1
+    const double low = std::max(at(i), at(i + quarter) - 0.25 * two_pi);
+    const double high = std::min(at(i + 1), at(i + quarter + 1) - 0.25 * two_pi);
+    if (low < high) return 0.5 * (low + high);
+  }
+  throw Stop(ExitCode::guard, "charge: several centres at one angle leave no fair quarter; choose another run.seed");
+}
+
+/// The quarter x >= 0, y >= 0 of a packed ball, turned so that its share is exact.
+std::vector<Vec3> cut_quarter(const std::vector<Vec3>& ball) {
+  const double angle = angle_of_fair_quarter(ball), c = std::cos(angle), s = std::sin(angle);
+  std::vector<Vec3> quarter;
+  for (const Vec3& x : ball) {
+    const Vec3 turned{c * x.x + s * x.y, c * x.y - s * x.x, x.z};
+    if (turned.x >= 0.0 && turned.y >= 0.0) quarter.push_back(turned);
+  }
+  return quarter;
+}
+
+}  // namespace
+
+std::vector<Vec3> charge_positions(const ChargePositions& wanted) {
+  if (!wanted.quarter) return packed_ball(wanted, wanted.count);
+  return cut_quarter(packed_ball(wanted, 4 * wanted.count));
 }
 
 }  // namespace standoff::particles

@@ -53,8 +53,8 @@ struct SandState {
   }
 };
 
-/// Mirror planes of a quarter model, x = 0 and y = 0: a sphere touches its own image when its centre is one radius
-/// away.
+/// Mirror planes of a quarter model, x = 0 and y = 0: a grain touches its own image when its centre is one radius away;
+/// the centres of gas particles reach the plane.
 struct MirrorPlanes {
   bool on = false;
 };

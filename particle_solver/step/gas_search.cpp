@@ -73,11 +73,15 @@ void look_at_grains(Work& work, Index p) {
       });
 }
 
+/// The centre is mirrored at the plane itself, not one radius before it: a layer without gas there is no part of the
+/// symmetric scene. The plane lacks the partners beyond it, which thin gas does not notice; dense gas is then denser
+/// within a diameter of the plane, as at any wall, and as if the plane stood 3 f r / (1 + 2 f) nearer (f fill, r
+/// radius; scaled particle theory, Reiss, Frisch, Helfand & Lebowitz, J. Chem. Phys. 32 (1960) 119).
 void look_at_mirrors(Work& work, Index p) {
   const Body& me = work.body[p];
   Choice& choice = work.choice[p];
-  const double x = plane_impact_time(me.start.x, me.velocity.x, work.radius, me.since, work.h);
-  const double y = plane_impact_time(me.start.y, me.velocity.y, work.radius, me.since, work.h);
+  const double x = plane_impact_time(me.start.x, me.velocity.x, 0.0, me.since, work.h);
+  const double y = plane_impact_time(me.start.y, me.velocity.y, 0.0, me.since, work.h);
   if (x < choice.time) choice = {x, nobody, Hit::mirror_x};
   if (y < choice.time) choice = {y, nobody, Hit::mirror_y};
 }
