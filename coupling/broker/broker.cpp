@@ -8,6 +8,8 @@
 #include "coupling/broker/checkpoint_store.hpp"
 #include "coupling/broker/event_lines.hpp"
 #include "coupling/contract/process_watch.hpp"
+#include "coupling/contract/surface_fields.hpp"
+#include "coupling/tape/tape_writer.hpp"
 #include "coupling/transport/codec.hpp"
 #include "coupling/transport/router.hpp"
 
@@ -21,6 +23,15 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+TapeHead tape_head(const SessionState& state) {
+  TapeHead head;
+  head.case_hash = state.case_hash;
+  head.clock = state.clock;
+  for (const Peer& peer : state.peers) (peer.role == Role::load ? head.load_needs : head.structure_needs) = peer.needs;
+  head.surface = mesh_from(*state.surface_payload, state.surface.nodes, state.surface.quads);
+  return head;
+}
+
 class BrokerLoop {
  public:
   explicit BrokerLoop(const BrokerOptions& options)
@@ -31,6 +42,7 @@ class BrokerLoop {
         state_(open_session(options.rules, now())) {
     if (const std::string& folder = options.rules.checkpoint.folder; !folder.empty())
       checkpoints_.emplace(folder, options.build);
+    if (!options.tape.empty()) tape_.emplace(options.tape);
     options_.print(listening_line(router_.endpoint()));
   }
 
@@ -74,6 +86,8 @@ class BrokerLoop {
       state_ = std::move(step.state);
       for (SessionAction& action : step.actions)
         if (auto consequence = carry_out(action)) due.push_back(std::move(*consequence));
+      if (tape_ && !state_.over)
+        if (auto consequence = record(due.front())) due.push_back(std::move(*consequence));
     }
   }
 
@@ -97,12 +111,29 @@ class BrokerLoop {
     return Malformed{send.address, "it does not read its messages"};
   }
 
+  /// What has just been taken in, for the tape: its head when the clock is set, then every ADVANCE.
+  std::optional<SessionEvent> record(const SessionEvent& event) {
+    const auto* received = std::get_if<Received>(&event);
+    if (received == nullptr || state_.clock.windows == 0) return std::nullopt;
+    try {
+      if (!tape_begun_) tape_->head(tape_head(state_));
+      if (!tape_begun_) tape_begun_ = now();
+      if (const auto* advance = std::get_if<message::Advance>(&received->body))
+        for (const Peer& peer : state_.peers)
+          if (peer.address == received->address)
+            tape_->frame(peer.role, advance->window, advance->totals, now() - *tape_begun_, received->payload);
+      return std::nullopt;
+    } catch (const Stop& stop) {
+      return DiskFailed{stop.what()};
+    }
+  }
+
   SessionEvent commit(const InterfaceState& state) {
     try {
       checkpoints_->commit(state);
       return Committed{};
     } catch (const Stop& stop) {
-      return Committed{stop.what()};
+      return DiskFailed{stop.what()};
     }
   }
 
@@ -124,6 +155,8 @@ class BrokerLoop {
   Router router_;
   SessionState state_;
   std::optional<CheckpointStore> checkpoints_;
+  std::optional<TapeWriter> tape_;
+  std::optional<double> tape_begun_;
   double ticked_ = 0.0;
   std::optional<ExitCode> code_;
 };

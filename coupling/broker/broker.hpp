@@ -13,6 +13,7 @@ struct BrokerOptions {
   bool insecure = false;  // allow an address that other machines can reach
   SessionRules rules;
   std::string build;                                   // names this program in a checkpoint
+  std::string tape;                                    // file that every exchange is recorded in; empty: none
   std::function<void(const std::string& line)> print;  // one event line, without its end
 };
 

@@ -82,6 +82,7 @@ void declare_checkpoints(CLI::App& app, CommandLine& line) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--build", line.broker.build, "what the checkpoints say of the program that wrote them");
+  app.add_option("--tape", line.broker.tape, "file that every exchange is recorded in");
   app.add_option("--resume", line.resume, "checkpoint to go on from, a folder window-NUMBER");
 }
 
@@ -113,6 +114,7 @@ int main(int argc, char** argv) {
     line.broker.rules.checkpoint.folder = absolute(line.broker.rules.checkpoint.folder);
     if (!line.resume.empty()) line.broker.rules.resume = read_checkpoint(absolute(line.resume));
     watch_process();
+    reuse_large_blocks();
     return run_broker(line.broker);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_case);

@@ -69,6 +69,7 @@ std::pair<ExitCode, std::string> current_failure() {
 int participant_main(const std::string& program, const std::function<void()>& body) noexcept {
   try {
     watch_process();
+    reuse_large_blocks();
     const LastResort last_resort(program);
     body();
     return static_cast<int>(ExitCode::done);

@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include <malloc.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -27,6 +28,11 @@ void watch_process() {
   signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of write, like a full disk
   const pid_t now = getppid();
   if (now > 1) parent = now;
+}
+
+void reuse_large_blocks() {
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
 }
 
 std::string reason_to_end() {

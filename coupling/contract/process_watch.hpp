@@ -9,6 +9,10 @@ namespace standoff {
 /// parent is watched unless it is the system's own first process. Call once, at the start of main.
 void watch_process();
 
+/// From now on blocks of up to some MB go back to the heap and not to the system: the arrays of an exchange then do not
+/// cost a page fault for every 4 kB, each window anew.
+void reuse_large_blocks();
+
 /// Empty while there is no reason; otherwise a sentence. Costs a system call.
 std::string reason_to_end();
 

@@ -21,7 +21,7 @@ constexpr const char* closing =
 
 struct Texts {
   std::vector<std::string> set;
-  std::string max_time, progress, checkpoint = "60 s";
+  std::string max_time, progress, checkpoint = "60 s", particles;
 };
 
 void add_case(CLI::App& verb, std::string& path) {
@@ -80,6 +80,16 @@ void take_structure_command(RunOptions& options) {
     throw Stop(ExitCode::bad_case, "--structure exec: names no program, e.g. --structure \"exec:python3 plate.py\"");
 }
 
+/// "replay:TAPE" in place of one side.
+void take_replays(RunOptions& options, const Texts& texts) {
+  constexpr std::string_view prefix = "replay:";
+  std::string& model = options.overrides.structure_model;
+  if (model.starts_with(prefix)) options.structure_tape = model.substr(prefix.size()), model.clear();
+  if (texts.particles.starts_with(prefix)) options.particle_tape = texts.particles.substr(prefix.size());
+  if (!texts.particles.empty() && options.particle_tape.empty())
+    throw Stop(ExitCode::bad_case, "--particles takes replay:TAPE, a file written by standoff run --tape");
+}
+
 double max_time_of(const Texts& texts) {
   return texts.max_time.empty() ? 0.0 : wall_seconds(texts.max_time);
 }
@@ -110,10 +120,15 @@ Action add_run(CLI::App& app) {
   add_threads(verb, options->threads);
   add_max_time(verb, *texts, "stop after this wall-clock time (90, 15 min, 2 h) with exit code 5");
   verb.add_flag("--quiet", options->quiet, "print errors only");
+  verb.add_option("--tape", options->tape, "records every exchange of the interface in this file")->type_name("FILE");
+  verb.add_option("--particles", texts->particles,
+                  "replay:TAPE, a recorded load instead of the particles; --structure replay:TAPE, a recorded motion")
+      ->type_name("replay:TAPE");
   add_progress(verb, *texts);
   return [options, texts] {
     options->overrides = with_set(options->overrides, *texts);
     take_structure_command(*options);
+    take_replays(*options, *texts);
     take_texts(*options, *texts);
     return run_verb(*options);
   };
@@ -280,6 +295,7 @@ int launch(int argc, char** argv) {
                   {"cost", add_cost(app)}};
   add_fact_verbs(app, actions);
   add_folder_verbs(app, actions);
+  add_tape_verb(app, actions);
   try {
     return parse_and_call(app, actions, argc, argv);
   } catch (const Stop& stop) {

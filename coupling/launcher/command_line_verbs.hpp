@@ -16,6 +16,8 @@ using Actions = std::map<std::string, Action>;
 
 /// doc, effects, presets, models, new.
 void add_fact_verbs(CLI::App& app, Actions& actions);
+/// tape info, verify, diff, export.
+void add_tape_verb(CLI::App& app, Actions& actions);
 /// status, watch, compare, report.
 void add_folder_verbs(CLI::App& app, Actions& actions);
 

@@ -9,6 +9,7 @@
 #include "coupling/launcher/result_table.hpp"
 #include "coupling/launcher/text_format.hpp"
 #include "coupling/output/atomic_file.hpp"
+#include "coupling/tape/tape_reader.hpp"
 
 namespace standoff::launch {
 namespace {
@@ -16,7 +17,10 @@ namespace {
 constexpr int sample_sources = 2;  // the load side and the structure each send half a row
 constexpr double progress_log_period = 1.0;
 
-std::string window_argument(const CouplingSpec& coupling) {
+std::string window_argument(const CouplingSpec& coupling, const RunOptions& options) {
+  // The windows of a recorded side are known; with them it sends the recorded bits.
+  for (const std::string& tape : {options.structure_tape, options.particle_tape})
+    if (!tape.empty()) return fmt::format("{:.17g}", TapeReader(tape).head().clock.window);
   switch (coupling.window_rule) {
     case CouplingSpec::Window::structure_step:
       return "step";
@@ -55,8 +59,8 @@ GrowingFile open_histories(const std::string& path, HistoryTable& table, const s
   return GrowingFile(path, true);
 }
 
-std::vector<std::string> checkpoint_arguments(const CheckpointOptions& options, const std::string& folder,
-                                              const std::optional<Continuation>& from) {
+std::vector<std::string> file_arguments(const CheckpointOptions& options, const std::string& tape,
+                                        const std::string& folder, const std::optional<Continuation>& from) {
   std::vector<std::string> arguments;
   if (options.on)
     arguments = {"--checkpoint",
@@ -67,13 +71,22 @@ std::vector<std::string> checkpoint_arguments(const CheckpointOptions& options, 
                  std::to_string(options.windows),
                  "--build",
                  build_id()};
+  if (!tape.empty()) arguments.insert(arguments.end(), {"--tape", tape});
   if (from) arguments.insert(arguments.end(), {"--resume", from->checkpoint});
   return arguments;
+}
+
+/// A recorded side in place of a program.
+void replay_instead(ChildCommand& command, const std::string& tape) {
+  command.argv[0] = program_path("standoff-replay");
+  command.argv.insert(command.argv.end(),
+                      {"--tape", tape, "--role", command.name == "structure" ? "structure" : "load"});
 }
 
 RunFacts initial_facts(const RunOptions& options, const CaseRead& read, const CostPrediction& plan) {
   RunFacts facts;
   if (!options.structure_command.empty()) facts.structure_model = "exec:" + options.structure_command;
+  if (!options.structure_tape.empty()) facts.structure_model = "replay:" + options.structure_tape;
   facts.case_hash = read.hash;
   facts.particle_threads = plan.particle_threads;
   facts.structure_threads = plan.structure_threads;
@@ -138,15 +151,18 @@ void RunSession::start_processes() {
       "broker",
       {program_path("standoff-broker"), "--listen", endpoint, "--token", token, "--until",
        fmt::format("{:.17g}", read_.spec.run.until), "--scheme",
-       coupling.scheme == Scheme::parallel ? "parallel" : "serial", "--window", window_argument(coupling)},
+       coupling.scheme == Scheme::parallel ? "parallel" : "serial", "--window", window_argument(coupling, options_)},
       thread_environment(1)};
-  const auto more = checkpoint_arguments(options_.checkpoint, folder_, continuation_);
+  const auto more = file_arguments(options_.checkpoint, options_.tape, folder_, continuation_);
   broker.argv.insert(broker.argv.end(), more.begin(), more.end());
   supervisor_.start(broker);
   ChildCommand structure = participant("structure", folder_, endpoint, token, plan_.structure_threads);
   if (!options_.structure_command.empty()) replace_program(structure, options_.structure_command);
+  ChildCommand particles = participant("particles", folder_, endpoint, token, plan_.particle_threads);
+  if (!options_.structure_tape.empty()) replay_instead(structure, options_.structure_tape);
+  if (!options_.particle_tape.empty()) replay_instead(particles, options_.particle_tape);
   supervisor_.start(structure);
-  supervisor_.start(participant("particles", folder_, endpoint, token, plan_.particle_threads));
+  supervisor_.start(particles);
 }
 
 void RunSession::take_line(const ChildProcess& child, bool error_output, const std::string& line) {

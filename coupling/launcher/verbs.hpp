@@ -30,6 +30,8 @@ struct RunOptions {
   double max_time = 0.0;  // s of wall clock, 0 = none
   bool quiet = false, json = false;
   CheckpointOptions checkpoint;
+  std::string tape;                           // every exchange is recorded in it
+  std::string structure_tape, particle_tape;  // recorded sides in place of the programs
 };
 int run_verb(const RunOptions& options);
 /// Goes on with the run in `folder`; of the options those count that do not change the case.

@@ -115,7 +115,8 @@ struct Happened {
   }
   void operator()(const Tick&) { watch(turn); }
   void operator()(const Interrupted& event) { interrupt(turn, event.reason); }
-  void operator()(const Committed& event) { take_committed(turn, event); }
+  void operator()(const Committed&) { take_committed(turn); }
+  void operator()(const DiskFailed& event) { turn.fail({"broker", ExitCode::out_of_resources, event.reason, -1}); }
 };
 
 }  // namespace

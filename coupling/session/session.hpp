@@ -130,11 +130,13 @@ struct Tick {};
 struct Interrupted {
   std::string reason;
 };
-/// The broker's own half of a checkpoint is on disk, or why not.
-struct Committed {
-  std::string error;
+/// The broker's own half of a checkpoint is on disk.
+struct Committed {};
+/// The broker could not write a file.
+struct DiskFailed {
+  std::string reason;
 };
-using SessionEvent = std::variant<Received, Malformed, Disconnected, Tick, Interrupted, Committed>;
+using SessionEvent = std::variant<Received, Malformed, Disconnected, Tick, Interrupted, Committed, DiskFailed>;
 
 /// What people and the launcher are told.
 namespace announce {

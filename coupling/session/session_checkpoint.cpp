@@ -78,9 +78,8 @@ void take_saved(SessionTurn& turn, Peer& peer, const message::Saved& saved) {
   turn.actions.emplace_back(Commit{std::move(half)});
 }
 
-void take_committed(SessionTurn& turn, const Committed& committed) {
+void take_committed(SessionTurn& turn) {
   SessionState& state = turn.state;
-  if (!committed.error.empty()) return turn.fail({"broker", ExitCode::out_of_resources, committed.error, -1});
   announce::Checkpoint made;
   for (Peer& peer : state.peers) {
     made.windows = peer.window + 1;

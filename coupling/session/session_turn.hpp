@@ -34,7 +34,7 @@ void take_advance(SessionTurn& turn, Peer& peer, const Received& received);
 void take_stop(SessionTurn& turn, Peer& peer, const message::StopWindows& stop);
 void take_bye(SessionTurn& turn, Peer& peer);
 void take_saved(SessionTurn& turn, Peer& peer, const message::Saved& saved);
-void take_committed(SessionTurn& turn, const Committed& committed);
+void take_committed(SessionTurn& turn);
 void start_windows(SessionTurn& turn);
 /// Both sides wait at the end of a window: what comes next.
 void go_on(SessionTurn& turn);

@@ -115,7 +115,7 @@ TEST(Checkpoint, DiskFull_EndsTheRunWithFive) {
   run.start();
   both_advance(run, 0);
   both_save(run, 1);
-  run.happen(Committed{"cannot write interface.state: No space left on device"});
+  run.happen(DiskFailed{"cannot write interface.state: No space left on device"});
   EXPECT_EQ(run.finished(), std::vector<int>{5});
   EXPECT_TRUE(run.announced<announce::Checkpoint>().empty());
 }
