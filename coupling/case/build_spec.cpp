@@ -15,6 +15,7 @@ class Fields {
   void get(const char* path, bool& field) const { read<bool>(path, field); }
   void get(const char* path, long& field) const { read<long long>(path, field); }
   void get(const char* path, std::uint64_t& field) const { read<long long>(path, field); }
+  void get(const char* path, std::vector<double>& field) const { read<std::vector<double>>(path, field); }
   void get(const char* path, Vec3& field) const {
     Triple three{field.x, field.y, field.z};
     read<Triple>(path, three);
@@ -69,7 +70,14 @@ void soil(const Fields& from, SoilSpec& to) {
   from.get("soil.particles", to.particles);
 }
 
+MaterialLaw law_named(const std::string& word) {
+  if (word == "johnson_cook_log") return MaterialLaw::johnson_cook_log;
+  if (word == "j2_table") return MaterialLaw::j2_table;
+  return word == "elastic" ? MaterialLaw::elastic : MaterialLaw::johnson_cook;
+}
+
 void material(const Fields& from, MaterialSpec& to) {
+  to.law = law_named(from.word("plate.material.law"));
   from.get("plate.material.name", to.name);
   from.get("plate.material.source", to.source);
   from.get("plate.material.density", to.density);
@@ -80,7 +88,9 @@ void material(const Fields& from, MaterialSpec& to) {
   from.get("plate.material.n", to.n);
   from.get("plate.material.C", to.C);
   from.get("plate.material.reference_rate", to.reference_rate);
-  to.logarithmic_rate = from.word("plate.material.rate_law") == "logarithmic";
+  from.get("plate.material.plastic_strain", to.plastic_strain);
+  from.get("plate.material.flow_stress", to.flow_stress);
+  if (to.law == MaterialLaw::j2_table && !to.flow_stress.empty()) to.A = to.flow_stress.front();
   from.get("plate.material.m", to.m);
   from.get("plate.material.room_temperature", to.room_temperature);
   from.get("plate.material.melting_temperature", to.melting_temperature);

@@ -72,14 +72,22 @@ struct ContactSpec {
   friend bool operator==(const ContactSpec&, const ContactSpec&) = default;
 };
 
+enum class MaterialLaw {
+  johnson_cook,      // (A + B p^n)(1 + rate)^C (1 - T*^m)
+  johnson_cook_log,  // the original rate term 1 + C ln(rate)
+  j2_table,          // straight lines between points instead of A + B p^n
+  elastic,           // no yield
+};
+
 /// Constants of a plate material; see structure_solver/materials for the laws.
 struct MaterialSpec {
+  MaterialLaw law = MaterialLaw::johnson_cook;
   std::string name, source;
   double density = 0.0, youngs_modulus = 0.0, poissons_ratio = 0.0;
   double A = 0.0, B = 0.0, n = 1.0;                                           // Pa, Pa, -: (A + B p^n)
   double C = 0.0, reference_rate = 1.0;                                       // -, 1/s
-  bool logarithmic_rate = false;                                              // 1 + C ln(rate) instead of (1 + rate)^C
   double m = 1.0, room_temperature = 293.0, melting_temperature = 1e4;        // -, K, K
+  std::vector<double> plastic_strain, flow_stress;                            // -, Pa: the points of a table
   double specific_heat = 0.0, taylor_quinney = 0.0, thermal_expansion = 0.0;  // J/kgK, -, 1/K
   friend bool operator==(const MaterialSpec&, const MaterialSpec&) = default;
 };

@@ -131,12 +131,33 @@ class SceneCheck {
               fmt::format("melting_temperature {} K is not above room_temperature {} K", p.material.melting_temperature,
                           p.material.room_temperature),
               "strength falls from room to melting temperature");
+    if (p.material.law == MaterialLaw::j2_table) flow_table(p.material);
     const Paths cover{"plate.surround_size", "plate.size"};
     if (usable(cover))
       finding(p.surround == "rigid" && p.surround_size < std::max(p.size.x, p.size.y) * (1.0 - touching), cover,
               fmt::format("the wall around the plate is smaller than the plate: surround_size {}, plate {} by {}",
                           mm(p.surround_size), mm(p.size.x), mm(p.size.y)),
               "surround_size is the outer side of the cover plate; surround = \"open\" leaves it out");
+  }
+
+  void flow_table(const MaterialSpec& m) {
+    const Paths table{"plate.material.plastic_strain", "plate.material.flow_stress"};
+    if (!usable(table)) return;
+    const auto &strain = m.plastic_strain, &stress = m.flow_stress;
+    finding(strain.size() != stress.size(), table,
+            fmt::format("the table has {} plastic strains but {} flow stresses", strain.size(), stress.size()),
+            "each plastic strain has its flow stress");
+    finding(strain.size() > 32, {table[0]}, fmt::format("a table of {} points; at most 32 are kept", strain.size()),
+            "straight lines between fewer points will do");
+    finding(strain.front() != 0.0, {table[0]}, fmt::format("the table starts at plastic strain {}", strain.front()),
+            "the first point is the initial yield stress, at plastic strain 0");
+    const auto falls = [](double a, double b) { return b < a; };
+    const auto stays = [](double a, double b) { return b <= a; };
+    finding(std::ranges::adjacent_find(strain, stays) != strain.end(), {table[0]},
+            "the plastic strains of the table do not rise from point to point", "list the points in order");
+    finding(std::ranges::adjacent_find(stress, falls) != stress.end(), {table[1]},
+            "the flow stress of the table falls somewhere",
+            "softening without a length scale depends on the mesh; heat softens by melting_temperature");
   }
 
   void domain() {

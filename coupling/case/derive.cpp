@@ -199,8 +199,14 @@ class Completion {
                          "write material = \"al6xn\", or a table with density, youngs_modulus, poissons_ratio, A ...");
       return;
     }
-    for (const char* key : {"density", "youngs_modulus", "poissons_ratio", "A"})
-      require(std::string("plate.material.") + key, "a table without preset states everything");
+    const std::string law = s_.word("plate.material.law"), whole = "a table without preset states everything";
+    for (const char* key : {"density", "youngs_modulus", "poissons_ratio"})
+      require(std::string("plate.material.") + key, whole);
+    if (law == "j2_table")
+      for (const char* key : {"plastic_strain", "flow_stress"})
+        require(std::string("plate.material.") + key, "law = \"j2_table\" needs the points of its curve");
+    else if (law != "elastic")
+      require("plate.material.A", whole);
   }
   bool only_defaults(const std::string& section) const {
     for (const auto& [path, setting] : s_.all())

@@ -122,8 +122,27 @@ EffectFinding surface_recession(const CaseSpec& spec) {
 }
 
 // ---- plate ----
-EffectFinding hardening(const CaseSpec& spec) {
+bool yields(const CaseSpec& spec) {
+  return spec.plate.material.law != MaterialLaw::elastic;
+}
+
+EffectFinding plasticity(const CaseSpec& spec) {
+  if (!yields(spec)) return nothing("law = \"elastic\": no yield stress");
   const MaterialSpec& m = spec.plate.material;
+  const double impact = estimate(spec).wall_speed * std::sqrt(m.youngs_modulus * m.density);
+  return {true, true,
+          fmt::format("yields at {:.0f} MPa; the wall speed alone is a bar stress of {:.2g} MPa", 1e-6 * m.A,
+                      1e-6 * impact)};
+}
+
+EffectFinding hardening(const CaseSpec& spec) {
+  if (!yields(spec)) return nothing("the plate does not yield");
+  const MaterialSpec& m = spec.plate.material;
+  if (m.law == MaterialLaw::j2_table) {
+    if (m.flow_stress.size() < 2) return nothing("one point in the table: perfectly plastic");
+    return {true, true,
+            fmt::format("the table rises from {:.0f} to {:.0f} MPa", 1e-6 * m.A, 1e-6 * m.flow_stress.back())};
+  }
   if (m.B <= 0.0) return nothing("B = 0: yield stress does not depend on plastic strain");
   const double at_tenth = m.B * std::pow(0.1, m.n);
   return {true, true,
@@ -131,17 +150,19 @@ EffectFinding hardening(const CaseSpec& spec) {
 }
 
 EffectFinding strain_rate(const CaseSpec& spec) {
+  if (!yields(spec)) return nothing("the plate does not yield");
   const MaterialSpec& m = spec.plate.material;
   if (m.C <= 0.0) return nothing("C = 0: yield stress does not depend on strain rate");
   const double relative = estimate(spec).rate / m.reference_rate;
-  const double factor =
-      m.logarithmic_rate ? 1.0 + m.C * std::log(std::max(relative, 1.0)) : std::pow(1.0 + relative, m.C);
+  const double factor = m.law == MaterialLaw::johnson_cook_log ? 1.0 + m.C * std::log(std::max(relative, 1.0))
+                                                               : std::pow(1.0 + relative, m.C);
   return {true, factor > 1.01,
           fmt::format("about {:.2g} 1/s raises the yield stress by {:.2g} %", relative * m.reference_rate,
                       100.0 * (factor - 1.0))};
 }
 
 EffectFinding heating(const CaseSpec& spec) {
+  if (!yields(spec)) return nothing("the plate does not yield");
   const MaterialSpec& m = spec.plate.material;
   if (m.taylor_quinney <= 0.0) return nothing("chi = 0: plastic work does not heat");
   const double rise = estimate(spec).heating;
@@ -152,6 +173,7 @@ EffectFinding heating(const CaseSpec& spec) {
 }
 
 EffectFinding expansion(const CaseSpec& spec) {
+  if (!yields(spec)) return nothing("the plate does not yield, so it stays cold");
   const MaterialSpec& m = spec.plate.material;
   if (m.thermal_expansion <= 0.0) return nothing("alpha = 0: heat does not strain");
   const double strain = m.thermal_expansion * estimate(spec).heating, yield = m.A / m.youngs_modulus;
@@ -178,6 +200,7 @@ const std::vector<EffectRule>& effect_rules() {
       {"radius_spread", "Grains of different size.", radius_spread},
       {"symmetry", "One quarter between two mirror planes.", symmetry},
       {"surface_recession", "Particles meet the plate where it has moved to.", surface_recession},
+      {"plasticity", "The plate yields; without, it is elastic and holds no history.", plasticity},
       {"hardening", "Yield stress grows with plastic strain.", hardening},
       {"strain_rate", "Yield stress grows with strain rate.", strain_rate},
       {"heating", "Plastic work heats the plate and softens it.", heating},
@@ -195,6 +218,18 @@ const std::vector<std::string>& effect_names() {
   return names;
 }
 
+namespace {
+
+/// Without plastic flow nothing hardens, and nothing is heated by it.
+void leave_out_what_needs_flow(std::vector<EffectDecision>& effects) {
+  const auto named = [&](std::string_view name) { return std::ranges::find(effects, name, &EffectDecision::name); };
+  if (named("plasticity")->on) return;
+  for (const char* name : {"hardening", "strain_rate", "heating", "expansion"})
+    if (EffectDecision& effect = *named(name); effect.on) effect.on = false, effect.reason = "plasticity is off";
+}
+
+}  // namespace
+
 EffectDecisions decide_effects(const CaseSpec& spec, const std::map<std::string, bool>& stated) {
   EffectDecisions decisions;
   for (const EffectRule& rule : effect_rules()) {
@@ -209,6 +244,7 @@ EffectDecisions decide_effects(const CaseSpec& spec, const std::map<std::string,
     }
     decisions.effects.push_back(std::move(decision));
   }
+  leave_out_what_needs_flow(decisions.effects);
   return decisions;
 }
 

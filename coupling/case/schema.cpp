@@ -150,7 +150,7 @@ constexpr KeyEntry entries[] = {
      "What surrounds the exposed plate: a rigid wall (the cover plate) or nothing."},
     {"plate.surround_size", KeyKind::quantity, quantity::length, positive, "", "613 mm",
      "Side of the square wall around the plate; what passes behind it is removed and booked.", "[Borvik 2011, sec. 2]"},
-    {"plate.material.preset", choice, quantity::none, any, "al6xn", "",
+    {"plate.material.preset", choice, quantity::none, any, "al6xn|ofhc_copper", "",
      "Named set of constants that the other keys of the table may change. material = \"al6xn\" is short for it."},
     {"plate.material.name", text, quantity::none, any, "", "custom", "Name shown in reports."},
     {"plate.material.source", text, quantity::none, any, "", "", "Where the constants come from."},
@@ -163,6 +163,16 @@ constexpr KeyEntry entries[] = {
      "",
      "",
      "Poisson's ratio; at 0.5 the volume cannot change and explicit steps become zero."},
+    {"plate.material.law", choice, quantity::none, any, "johnson_cook|johnson_cook_log|j2_table|elastic",
+     "johnson_cook",
+     "Flow stress: (A + B p^n)(1 + rate)^C (1 - T*^m); the original rate term 1 + C ln(rate); a table of "
+     "plastic_strain "
+     "and flow_stress in place of A + B p^n; or no yield at all.",
+     "[Borvik 2011, sec. 3.4]; Johnson and Cook 1985"},
+    {"plate.material.plastic_strain", list, quantity::none, not_negative, "", "",
+     "Points of a j2_table: plastic strains, rising from 0, at most 32."},
+    {"plate.material.flow_stress", list, quantity::pressure, positive, "", "",
+     "Points of a j2_table: flow stress at each plastic strain, nowhere falling; level after the last."},
     {"plate.material.A", KeyKind::quantity, quantity::pressure, positive, "", "",
      "Initial yield stress, A of A + B p^n."},
     {"plate.material.B", KeyKind::quantity, quantity::pressure, not_negative, "", "0 Pa", "Hardening, B of A + B p^n."},
@@ -170,8 +180,6 @@ constexpr KeyEntry entries[] = {
     {"plate.material.C", number, quantity::none, not_negative, "", "0", "Strain-rate sensitivity; 0 is none."},
     {"plate.material.reference_rate", KeyKind::quantity, quantity::rate, positive, "", "1 1/s",
      "Plastic strain rate that the rate term is relative to."},
-    {"plate.material.rate_law", choice, quantity::none, any, "power|logarithmic", "power",
-     "(1 + rate)^C, or the original 1 + C ln(rate).", "[Borvik 2011, sec. 3.4]; Johnson and Cook 1985"},
     {"plate.material.m", number, quantity::none, positive, "", "1", "Exponent of thermal softening, 1 - T*^m."},
     {"plate.material.room_temperature", KeyKind::quantity, quantity::temperature, positive, "", "293 K",
      "Temperature at rest, where softening begins."},
@@ -282,12 +290,19 @@ std::string range_text(const KeyEntry& entry) {
 }
 
 std::string describe_key(std::string_view key) {
-  static constexpr std::string_view kinds[] = {
-      "", "number", "count", "true or false", "text", "one of", "three values, each ", "three counts"};
+  static constexpr std::string_view kinds[] = {"",
+                                               "number",
+                                               "count",
+                                               "true or false",
+                                               "text",
+                                               "one of",
+                                               "three values, each ",
+                                               "three counts",
+                                               "a list of values, each "};
   std::string text;
   for (const KeyEntry& entry : entries) {
     if (entry.path != key && entry.key() != key) continue;
-    const bool dimensional = entry.kind == KeyKind::quantity || entry.kind == KeyKind::quantities;
+    const bool dimensional = !entry.quantity.units.empty();
     text += std::string(entry.path) + "\n  " + std::string(entry.doc) + "\n  takes    " +
             std::string(kinds[static_cast<std::size_t>(entry.kind)]);
     if (dimensional) text += with_article(entry.quantity.name) + " (" + std::string(entry.quantity.units) + ")";

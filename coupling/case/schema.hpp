@@ -21,6 +21,7 @@ enum class KeyKind {
   choice,      // one of KeyEntry::words
   quantities,  // three quantities: ["406 mm", "406 mm", "3.4 mm"]
   counts,      // three counts: [10, 10, 1]
+  list,        // any number of numbers or quantities: [0, 0.1], ["410 MPa", "600 MPa"]
 };
 
 /// Allowed values in SI; the ends belong to it unless open.

@@ -20,7 +20,8 @@ std::string kind_of(const Node& node) {
 /// What to write instead, when the type is wrong.
 std::string wanted(const KeyEntry& entry, bool one_of_three = false) {
   const std::string unit = " (" + std::string(entry.quantity.units) + ")";
-  const KeyKind one = entry.kind == KeyKind::counts ? KeyKind::count : KeyKind::quantity;
+  const bool plain = entry.quantity.units.empty();
+  const KeyKind one = entry.kind == KeyKind::counts ? KeyKind::count : plain ? KeyKind::number : KeyKind::quantity;
   switch (one_of_three ? one : entry.kind) {
     case KeyKind::quantity:
       return with_article(entry.quantity.name) + " is needed" + unit;
@@ -38,6 +39,8 @@ std::string wanted(const KeyEntry& entry, bool one_of_three = false) {
       return "three values are needed, each " + with_article(entry.quantity.name) + unit;
     case KeyKind::counts:
       return "three counts are needed, for example [10, 10, 1]";
+    case KeyKind::list:
+      return "a list is needed, each " + (plain ? "a number" : with_article(entry.quantity.name) + unit);
   }
   return "";
 }
@@ -67,6 +70,8 @@ class Checker {
         return as_value(number(node, name));
       case KeyKind::counts:
         return three<CountTriple>(node, [this](const Node& n, const std::string& s) { return count(n, s); });
+      case KeyKind::list:
+        return several(node);
       case KeyKind::quantities:
         return three<Triple>(node, [this](const Node& n, const std::string& s) { return number(n, s); });
     }
@@ -139,6 +144,16 @@ class Checker {
     return in_range(node, name, parsed.value);
   }
 
+  std::optional<Value> several(const Node& node) {
+    const std::string name(entry_.key());
+    const Node::Array* list = node.array();
+    if (!list || list->empty()) return wrong_type(node, name);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < list->size(); ++i)
+      if (const auto element = number((*list)[i], name + "[" + std::to_string(i) + "]")) result.push_back(*element);
+    return result.size() == list->size() ? std::optional<Value>(result) : std::nullopt;
+  }
+
   template <class T, class Part>
   std::optional<Value> three(const Node& node, Part part) {
     const std::string name(entry_.key());
@@ -191,6 +206,8 @@ std::string toml_text(const Value& value, const KeyEntry& entry) {
   std::string list;
   if (const Triple* three = std::get_if<Triple>(&value))
     for (const double x : *three) list += (list.empty() ? "" : ", ") + number(x);
+  if (const auto* several = std::get_if<std::vector<double>>(&value))
+    for (const double x : *several) list += (list.empty() ? "" : ", ") + number(x);
   if (const CountTriple* three = std::get_if<CountTriple>(&value))
     for (const long long n : *three) list += (list.empty() ? "" : ", ") + std::to_string(n);
   return "[" + list + "]";

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "coupling/case/document.hpp"
 #include "coupling/case/schema.hpp"
@@ -13,7 +14,7 @@ namespace standoff {
 using Triple = std::array<double, 3>;
 using CountTriple = std::array<long long, 3>;
 /// A text holds the words of texts, choices and words taken beside a number.
-using Value = std::variant<bool, long long, double, std::string, Triple, CountTriple>;
+using Value = std::variant<bool, long long, double, std::string, Triple, CountTriple, std::vector<double>>;
 
 /// Checks `node` against what `entry` asks for; every mistake is reported at its own position.
 std::optional<Value> check_value(const Node& node, const KeyEntry& entry, Diagnostics& diagnostics);

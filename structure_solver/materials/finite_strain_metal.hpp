@@ -28,17 +28,27 @@ struct PointStep {
   bool flow = true;  // false: plastic flow frozen, elastic answer only
 };
 
-template <bool HasHardening, RateLaw Rate, bool HasHeating, bool HasExpansion>
+template <Hardening Hard, RateLaw Rate, bool HasHeating, bool HasExpansion>
 struct Metal {
   static_assert(HasHeating || !HasExpansion, "without heating the temperature never changes");
-  static constexpr bool hardening = HasHardening, heating = HasHeating, expansion = HasExpansion;
+  static constexpr bool plasticity = true, heating = HasHeating, expansion = HasExpansion;
+  static constexpr Hardening hardening = Hard;
   static constexpr RateLaw rate = Rate;
+  static constexpr bool varies = hardening != Hardening::none || heating;  // its static flow stress
   // History fields: Cp^-1 - I (6), plastic strain, then those the effects call for; -1 is absent.
   static constexpr int strain_field = 6;
   static constexpr int temperature_field = heating ? 7 : -1;
-  static constexpr int static_stress_field = hardening || heating ? 7 + heating : -1;
-  static constexpr int x_field = rate != RateLaw::none ? 7 + heating + (hardening || heating) : -1;
-  static constexpr int fields = 7 + heating + (hardening || heating) + (rate != RateLaw::none);
+  static constexpr int static_stress_field = varies ? 7 + heating : -1;
+  static constexpr int x_field = rate != RateLaw::none ? 7 + heating + varies : -1;
+  static constexpr int fields = 7 + heating + varies + (rate != RateLaw::none);
+};
+
+/// Elastic in logarithmic strain at any stress: no history, no flow.
+struct Elastic {
+  static constexpr bool plasticity = false, heating = false, expansion = false;
+  static constexpr Hardening hardening = Hardening::none;
+  static constexpr RateLaw rate = RateLaw::none;
+  static constexpr int strain_field = -1, temperature_field = -1, static_stress_field = -1, x_field = -1, fields = 0;
 };
 
 template <class T>
@@ -57,8 +67,12 @@ struct PointResult {
 };
 
 /// be - I = H + H^T + H H^T + F (Cp^-1 - I) F^T
-template <class T>
+template <class Law, class T>
 inline Sym3<T> elastic_left_cauchy_green(const Mat3<T>& h, const Mat3<T>& f, const Sym3<T>& c) {
+  if constexpr (!Law::plasticity) {
+    auto part = [&](int i, int j) { return h.m[i][j] + h.m[j][i] + rows(h, i, h, j); };
+    return {part(0, 0), part(1, 1), part(2, 2), part(0, 1), part(1, 2), part(2, 0)};
+  }
   const Mat3<T> fc = times(f, c);
   auto part = [&](int i, int j) { return h.m[i][j] + h.m[j][i] + rows(h, i, h, j) + rows(fc, i, f, j); };
   return {part(0, 0), part(1, 1), part(2, 2), part(0, 1), part(1, 2), part(2, 0)};
@@ -105,6 +119,27 @@ inline void advance_plastic_metric(const Mat3<T>& inverse, const Sym3<T>& x, con
   c.xy += select(flowed, gain.xy, zero), c.yz += select(flowed, gain.yz, zero), c.zx += select(flowed, gain.zx, zero);
 }
 
+/// Yield and flow of the lanes whose trial stress is too high; returns what is left of the stress deviator.
+template <class Law, class T>
+inline T flow_point(const MetalParameters& metal, const PointStep& step, T trial, const Mat3<T>& inverse_transposed,
+                    const Sym3<T>& x, const Sym3<T>& dev, PointHistory<T>& s, PointResult<T>& out) {
+  const T limit = fused(out.volume_ratio, s.static_stress, T(yield_tolerance * metal.flow.A));
+  const MaskOf<T> yielding = trial > limit;
+  if (!step.flow || !any(yielding)) return T(1.0);
+  const FlowResult<T> flow = flow_of_step<Law>(metal, s, trial, out.volume_ratio, step.dt, yielding);
+  const T increment = select(yielding, flow.increment, T(0.0));
+  const T drop = select(yielding, T(3.0 * metal.shear) * increment / trial, T(0.0));
+  const T scale = T(1.0) - drop;
+  advance_plastic_metric(transpose(inverse_transposed), x, dev, drop + drop, yielding, s.c);
+  s.strain += increment;
+  s.temperature = select(yielding, flow.temperature, s.temperature);
+  s.static_stress = select(yielding, flow.static_stress, s.static_stress);
+  s.x = select(yielding, flow.x, s.x);
+  out.inelastic = select(yielding, trial * scale * increment, T(0.0));
+  out.flowed = yielding;
+  return scale;
+}
+
 /// Stress at H from the committed history `s`, which becomes the trial history.
 template <class Law, class T>
 inline PointResult<T> update_point(const MetalParameters& metal, const Mat3<T>& h, const PointStep& step,
@@ -117,33 +152,20 @@ inline PointResult<T> update_point(const MetalParameters& metal, const Mat3<T>& 
   for (auto& row : inverse_transposed.m)
     for (T& entry : row) entry *= inverse_j;
 
-  const Sym3<T> x = elastic_left_cauchy_green(h, f, s.c);
+  const Sym3<T> x = elastic_left_cauchy_green<Law>(h, f, s.c);
   Sym3<T> dev = log_one_plus(x);  // 2 eps, then its deviator over 2
   const T twice_volumetric = trace(dev);
   const T half = T(0.5), mean = twice_volumetric * T(1.0 / 3.0);
   dev = {half * (dev.xx - mean), half * (dev.yy - mean), half * (dev.zz - mean),
          half * dev.xy,          half * dev.yz,          half * dev.zx};
   const T square = contract(dev, dev);
-  const T trial = T(metal.shear) * square_root(T(6.0) * square);
-
   T scale = T(1.0);
   out.inelastic = T(0.0);
   out.flowed = Lanes<T>::all_false();
-  const T old_temperature = s.temperature;
-  const T limit = fused(out.volume_ratio, s.static_stress, T(yield_tolerance * metal.flow.A));
-  if (const MaskOf<T> yielding = trial > limit; step.flow && any(yielding)) {
-    const FlowResult<T> flow = flow_of_step<Law>(metal, s, trial, out.volume_ratio, step.dt, yielding);
-    const T increment = select(yielding, flow.increment, T(0.0));
-    const T drop = select(yielding, T(3.0 * metal.shear) * increment / trial, T(0.0));
-    scale = T(1.0) - drop;
-    advance_plastic_metric(transpose(inverse_transposed), x, dev, drop + drop, yielding, s.c);
-    s.strain += increment;
-    s.temperature = select(yielding, flow.temperature, s.temperature);
-    s.static_stress = select(yielding, flow.static_stress, s.static_stress);
-    s.x = select(yielding, flow.x, s.x);
-    out.inelastic = select(yielding, trial * scale * increment, T(0.0));
-    out.flowed = yielding;
-  }
+  [[maybe_unused]] const T old_temperature = s.temperature;
+  if constexpr (Law::plasticity)
+    scale =
+        flow_point<Law>(metal, step, T(metal.shear) * square_root(T(6.0) * square), inverse_transposed, x, dev, s, out);
 
   T volumetric = half * twice_volumetric;
   if constexpr (Law::expansion)

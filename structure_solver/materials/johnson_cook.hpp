@@ -1,6 +1,7 @@
 #pragma once
 // Flow stress of metals at high rate and temperature.
 //   sigma_y(p, dp/dt, T) = (A + B p^n) R(dp/dt) (1 - T*^m),   T* = (T - Tr) / (Tm - Tr) held in [0, 1]
+//   or a table in place of A + B p^n: straight lines between measured points, level after the last
 //   R = (1 + rate/rate0)^C   modified law, smooth at rest [Borvik 2011, sec. 3.4]; Borvik, Hopperstad, Berstad,
 //   Langseth,
 //                            Eur. J. Mech. A/Solids 20 (2001) 685
@@ -10,14 +11,41 @@
 // Symbols: p plastic strain (-, >= 0), T temperature (K), A B (Pa), n C m (-), rate0 (1/s).
 // Deviations: never below softest_fraction * A, so that molten metal keeps a yield surface; p and T* are held above
 // 1e-12, where the slopes of p^n (n < 1) and T*^m (m < 1) have no value.
+#include <array>
+#include <span>
+
 #include "structure_solver/elements/lane_math.hpp"
 
 namespace standoff::structure {
+
+inline constexpr int largest_table = 32;  // points
+
+/// A curve of straight lines as a sum of bends: sigma(p) = A + sum_k bend_k max(0, p - strain_k), without a branch.
+struct HardeningTable {
+  int bends = 0;
+  std::array<double, largest_table> strain{}, bend{};  // -, Pa: what the slope gains there
+};
+
+/// From points of rising plastic strain, the first at 0, and their flow stress [Pa].
+inline HardeningTable hardening_table(std::span<const double> strain, std::span<const double> stress) {
+  HardeningTable table;
+  double slope = 0.0;
+  for (std::size_t k = 0; k < strain.size() && k < largest_table; ++k) {
+    const bool last = k + 1 == strain.size();
+    const double next = last ? 0.0 : (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]);
+    table.strain[k] = strain[k], table.bend[k] = next - slope;
+    slope = next, ++table.bends;
+  }
+  return table;
+}
+
+enum class Hardening { none, power, table };
 
 struct JohnsonCook {
   double A = 0.0, B = 0.0, n = 1.0;
   double C = 0.0, reference_rate = 1.0;
   double m = 1.0, room_temperature = 293.0, melting_temperature = 1e4;
+  HardeningTable table{};
 };
 
 enum class RateLaw { none, power, logarithmic };
@@ -31,10 +59,18 @@ struct StaticFlow {
   T stress, by_strain, by_temperature;
 };
 
-template <bool Hardening, bool Softening, class T>
+template <Hardening Hard, bool Softening, class T>
 inline StaticFlow<T> static_flow(const JohnsonCook& law, T p, T temperature) {
   StaticFlow<T> flow{T(law.A), T(0.0), T(0.0)};
-  if constexpr (Hardening) {
+  if constexpr (Hard == Hardening::table) {
+    for (int k = 0; k < law.table.bends; ++k) {
+      const T beyond = p - T(law.table.strain[static_cast<std::size_t>(k)]),
+              bend(law.table.bend[static_cast<std::size_t>(k)]);
+      flow.stress = fused(bend, larger(beyond, T(0.0)), flow.stress);
+      flow.by_strain += select(beyond >= T(0.0), bend, T(0.0));
+    }
+  }
+  if constexpr (Hard == Hardening::power) {
     const T strain = larger(p, T(smallest_argument));
     const T power = raise(strain, law.n);
     flow.stress = fused(T(law.B), power, T(law.A));

@@ -51,7 +51,7 @@ inline T temperature_after(const FlowProblem<T>& f, T dp) {
   return fused(T(f.heating) * fused_minus(T(f.triple_shear), dp, f.trial), dp, f.temperature);
 }
 
-template <bool Hardening, bool Softening, RateLaw Rate, class T>
+template <Hardening Hard, bool Softening, RateLaw Rate, class T>
 inline FlowResidual<T> flow_residual(const JohnsonCook& law, const FlowProblem<T>& f, T unknown) {
   FlowResidual<T> r{T(0.0), T(0.0), T(0.0), unknown, T(1.0), T(0.0), T(0.0)};
   RateFactor<T> rate{T(1.0), T(0.0)};
@@ -63,7 +63,7 @@ inline FlowResidual<T> flow_residual(const JohnsonCook& law, const FlowProblem<T
   }
   const T stress = fused_minus(T(f.triple_shear), r.increment, f.trial);
   const StaticFlow<T> flow =
-      static_flow<Hardening, Softening>(law, f.strain + r.increment, temperature_after(f, r.increment));
+      static_flow<Hard, Softening>(law, f.strain + r.increment, temperature_after(f, r.increment));
   r.static_stress = flow.stress, r.static_slope = flow.by_strain;
   if constexpr (Softening) {
     const T heat_slope = T(f.heating) * fused_minus(T(f.triple_shear), r.increment, stress);
@@ -79,7 +79,7 @@ inline FlowResidual<T> flow_residual(const JohnsonCook& law, const FlowProblem<T
 }
 
 /// Solves for the lanes in `active`; `guess` is the unknown of the last flow of the point.
-template <bool Hardening, bool Softening, RateLaw Rate, class T>
+template <Hardening Hard, bool Softening, RateLaw Rate, class T>
 inline FlowResult<T> solve_flow(const JohnsonCook& law, const FlowProblem<T>& f, MaskOf<T> active, T guess) {
   T low = T(0.0), high = f.trial * T(1.0 / f.triple_shear);
   if constexpr (Rate != RateLaw::none) high = logarithm(fused(high, T(1.0 / f.rate_strain), T(1.0)));
@@ -87,7 +87,7 @@ inline FlowResult<T> solve_flow(const JohnsonCook& law, const FlowProblem<T>& f,
   const T tolerance = T(yield_tolerance * law.A);
   FlowResult<T> result{T(0.0), f.temperature, T(law.A), guess};
   for (int i = 0; i < flow_iterations && any(active); ++i) {
-    const FlowResidual<T> r = flow_residual<Hardening, Softening, Rate>(law, f, unknown);
+    const FlowResidual<T> r = flow_residual<Hard, Softening, Rate>(law, f, unknown);
     const MaskOf<T> left = r.g > T(0.0);
     low = select(left, unknown, low), high = select(left, high, unknown);
     const T newton = -r.g / r.slope;
@@ -98,7 +98,7 @@ inline FlowResult<T> solve_flow(const JohnsonCook& law, const FlowProblem<T>& f,
     const MaskOf<T> exact = larger(r.g, -r.g) <= tolerance;
     const T error = r.g * halley;
     MaskOf<T> last = Lanes<T>::all_false();
-    if constexpr (Rate == RateLaw::power)
+    if constexpr (Rate == RateLaw::power && Hard != Hardening::table)  // a table bends in corners: no such estimate
       last = inside & invert(exact) & (larger(error, -error) <= T(0.25) * tolerance);
     const T change = select(last, r.increment_slope * halley * fused(T(0.5), halley, T(1.0)), T(0.0));
     result.increment = select(active, r.increment + change, result.increment);

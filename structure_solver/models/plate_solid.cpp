@@ -24,7 +24,15 @@ MetalParameters metal_parameters(const MaterialSpec& s) {
   MetalParameters p;
   p.bulk = s.youngs_modulus / (3.0 * (1.0 - 2.0 * s.poissons_ratio));
   p.shear = s.youngs_modulus / (2.0 * (1.0 + s.poissons_ratio));
-  p.flow = {s.A, s.B, s.n, s.C, s.reference_rate, s.m, s.room_temperature, s.melting_temperature};
+  p.flow = {s.A,
+            s.B,
+            s.n,
+            s.C,
+            s.reference_rate,
+            s.m,
+            s.room_temperature,
+            s.melting_temperature,
+            hardening_table(s.plastic_strain, s.flow_stress)};
   if (s.specific_heat > 0.0) p.heating = s.taylor_quinney / (s.density * s.specific_heat);
   p.expansion = 3.0 * s.thermal_expansion;
   return p;
@@ -33,9 +41,12 @@ MetalParameters metal_parameters(const MaterialSpec& s) {
 MetalEffects metal_effects(const CaseSpec& spec) {
   const MaterialSpec& m = spec.plate.material;
   MetalEffects e;
-  e.hardening = spec.effect("hardening") && m.B != 0.0;
+  e.plasticity = spec.effect("plasticity") && m.law != MaterialLaw::elastic;
+  const bool table = m.law == MaterialLaw::j2_table;
+  const bool hardens = spec.effect("hardening") && (table ? m.flow_stress.size() > 1 : m.B != 0.0);
+  e.hardening = !hardens ? Hardening::none : table ? Hardening::table : Hardening::power;
   const bool rate = spec.effect("strain_rate") && m.C != 0.0;
-  e.rate = !rate ? RateLaw::none : (m.logarithmic_rate ? RateLaw::logarithmic : RateLaw::power);
+  e.rate = !rate ? RateLaw::none : (m.law == MaterialLaw::johnson_cook_log ? RateLaw::logarithmic : RateLaw::power);
   e.heating = spec.effect("heating") && m.taylor_quinney != 0.0 && m.specific_heat > 0.0;
   e.expansion = spec.effect("expansion") && e.heating && m.thermal_expansion != 0.0;
   return e;

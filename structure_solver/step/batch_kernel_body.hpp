@@ -28,17 +28,27 @@ BatchSums batch_kernel(const MetalParameters& metal, const BoxGeometry& geometry
 
 template <class Law>
 KernelChoice choice_of() {
-  return {&batch_kernel<Law>, {Law::fields, Law::temperature_field, Law::static_stress_field, Law::x_field}};
+  return {&batch_kernel<Law>,
+          {Law::fields, Law::strain_field, Law::temperature_field, Law::static_stress_field, Law::x_field}};
+}
+
+template <Hardening Hard, RateLaw Rate>
+KernelChoice choose_kernel_with(const MetalEffects& e) {
+  if (!e.heating) return choice_of<Metal<Hard, Rate, false, false>>();
+  return e.expansion ? choice_of<Metal<Hard, Rate, true, true>>() : choice_of<Metal<Hard, Rate, true, false>>();
 }
 
 template <RateLaw Rate>
 KernelChoice choose_kernel_with_rate(const MetalEffects& e) {
-  if (e.hardening) {
-    if (!e.heating) return choice_of<Metal<true, Rate, false, false>>();
-    return e.expansion ? choice_of<Metal<true, Rate, true, true>>() : choice_of<Metal<true, Rate, true, false>>();
+  switch (e.hardening) {
+    case Hardening::power:
+      return choose_kernel_with<Hardening::power, Rate>(e);
+    case Hardening::table:
+      return choose_kernel_with<Hardening::table, Rate>(e);
+    case Hardening::none:
+      break;
   }
-  if (!e.heating) return choice_of<Metal<false, Rate, false, false>>();
-  return e.expansion ? choice_of<Metal<false, Rate, true, true>>() : choice_of<Metal<false, Rate, true, false>>();
+  return choose_kernel_with<Hardening::none, Rate>(e);
 }
 
 }  // namespace standoff::structure

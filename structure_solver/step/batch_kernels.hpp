@@ -10,15 +10,15 @@ namespace standoff::structure {
 
 /// Which effects the scene calls for.
 struct MetalEffects {
-  bool hardening = true;
+  bool plasticity = true;
+  Hardening hardening = Hardening::power;
   RateLaw rate = RateLaw::power;
   bool heating = true, expansion = true;
 };
 
 /// Where a field lies in the history of a Gauss point; -1 is absent.
 struct HistoryLayout {
-  int fields = 0, temperature = -1, static_stress = -1, x = -1;
-  static constexpr int strain = 6;
+  int fields = 0, strain = -1, temperature = -1, static_stress = -1, x = -1;
 };
 
 struct BatchSums {
@@ -36,6 +36,7 @@ struct KernelChoice {
 };
 
 KernelChoice choose_kernel(const MetalEffects& effects);
+KernelChoice elastic_kernel();
 
 /// One choice per file, so that they compile side by side.
 template <RateLaw Rate>

@@ -19,8 +19,11 @@ struct ElementSums {
 template <class Law, class T>
 inline PointHistory<T> load_history(const MetalParameters& metal, const T* field) {
   PointHistory<T> s;
-  s.c = {field[0], field[1], field[2], field[3], field[4], field[5]};
-  s.strain = field[Law::strain_field];
+  s.strain = T(0.0);
+  if constexpr (Law::plasticity) {
+    s.c = {field[0], field[1], field[2], field[3], field[4], field[5]};
+    s.strain = field[Law::strain_field];
+  }
   s.temperature = T(metal.flow.room_temperature);
   s.static_stress = T(metal.flow.A);
   s.x = T(0.0);
@@ -59,7 +62,8 @@ inline ElementSums<T> hex64_force(const MetalParameters& metal, const Geometry& 
     PointHistory<T> s = load_history<Law>(metal, fields);
     const Mat3<T> h = geometry.reference_gradient(q, load_gradient(gradient, q));
     const PointResult<T> point = update_point<Law>(metal, h, step, s);
-    if (commit && any(point.flowed)) store_history<Law>(s, fields);
+    if constexpr (Law::plasticity)
+      if (commit && any(point.flowed)) store_history<Law>(s, fields);
     const T weight = T(geometry.weight(q));
     sums.elastic = fused(weight, point.elastic, sums.elastic);
     sums.inelastic = fused(weight, point.inelastic, sums.inelastic);

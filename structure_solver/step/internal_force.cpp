@@ -5,16 +5,16 @@
 namespace standoff::structure {
 namespace {
 
-StaticFlow<double> initial_flow(const MetalParameters& metal, const HistoryLayout& layout, bool hardening) {
-  const double room = metal.flow.room_temperature;
-  if (!hardening) return {metal.flow.A, 0.0, 0.0};
-  if (layout.temperature < 0) return static_flow<true, false>(metal.flow, 0.0, room);
-  return static_flow<true, true>(metal.flow, 0.0, room);
+/// Static flow stress of the virgin metal. A table starts at A; B p^n is not quite zero at the smallest p it knows.
+double initial_flow(const MetalParameters& metal, Hardening hardening) {
+  if (hardening != Hardening::power) return metal.flow.A;
+  return static_flow<Hardening::power, false>(metal.flow, 0.0, metal.flow.room_temperature).stress;
 }
 
 }  // namespace
 
 KernelChoice choose_kernel(const MetalEffects& effects) {
+  if (!effects.plasticity) return elastic_kernel();
   switch (effects.rate) {
     case RateLaw::power:
       return choose_kernel_with_rate<RateLaw::power>(effects);
@@ -50,7 +50,7 @@ InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal
 
   const HistoryLayout& layout = choice_.layout;
   history_.assign(nodes_.size() * hex_points * static_cast<std::size_t>(layout.fields), Pack4(0.0));
-  const double static_stress = initial_flow(metal, layout, effects.hardening).stress;
+  const double static_stress = initial_flow(metal, effects.hardening);
   for (std::size_t row = 0; row < history_.size(); row += static_cast<std::size_t>(layout.fields)) {
     if (layout.temperature >= 0)
       history_[row + static_cast<std::size_t>(layout.temperature)] = metal.flow.room_temperature;
@@ -64,7 +64,7 @@ ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t b = 0; b < count; ++b)
     sums_[b] = choice_.kernel(metal_, geometry_, step, commit, u.data(), nodes_[b].data(),
-                              &history_[b * history_stride], &buffer_[b * 3 * hex_nodes]);
+                              history_.data() + b * history_stride, &buffer_[b * 3 * hex_nodes]);
   ForceSums total;
   const long elements = mesh_.element_count();
   for (long e = 0; e < elements; ++e) {
@@ -93,7 +93,7 @@ void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::
     own[i] = static_cast<std::int32_t>(i);
   }
   std::vector<Pack4> plus(3 * hex_nodes), minus(3 * hex_nodes);
-  Pack4* const history = &history_[b * hex_points * static_cast<std::size_t>(choice_.layout.fields)];
+  Pack4* const history = history_.data() + b * hex_points * static_cast<std::size_t>(choice_.layout.fields);
   auto force_at = [&](std::size_t node, double Vec3::*component, double shift, std::vector<Pack4>& f) {
     const auto saved = local;
     for (std::size_t i = 0; i < 4; ++i) local[4 * node + i].*component += shift;

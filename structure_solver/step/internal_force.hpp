@@ -43,7 +43,9 @@ class InternalForce {
     const auto row = (element / 4 * hex_points + point) * choice_.layout.fields + field;
     return lane(history_[static_cast<std::size_t>(row)], static_cast<int>(element % 4));
   }
-  double plastic_strain(long element, int point) const { return history(element, point, HistoryLayout::strain); }
+  double plastic_strain(long element, int point) const {
+    return choice_.layout.strain < 0 ? 0.0 : history(element, point, choice_.layout.strain);
+  }
   double temperature(long element, int point) const {
     return choice_.layout.temperature < 0 ? metal_.flow.room_temperature
                                           : history(element, point, choice_.layout.temperature);

@@ -10,7 +10,7 @@
 namespace standoff::structure {
 namespace {
 
-using Law = Metal<true, RateLaw::power, true, true>;
+using Law = Metal<Hardening::power, RateLaw::power, true, true>;
 
 template <class T>
 struct Element {
@@ -34,7 +34,7 @@ void fresh(Element<T>& e, const MetalParameters& metal) {
   for (int q = 0; q < hex_points; ++q) {
     e.history[q * Law::fields + Law::temperature_field] = T(metal.flow.room_temperature);
     e.history[q * Law::fields + Law::static_stress_field] =
-        T(static_flow<true, true>(metal.flow, 0.0, metal.flow.room_temperature).stress);
+        T(static_flow<Hardening::power, true>(metal.flow, 0.0, metal.flow.room_temperature).stress);
   }
 }
 

@@ -9,12 +9,12 @@
 namespace standoff::structure {
 namespace {
 
-using Law = Metal<true, RateLaw::power, true, true>;
+using Law = Metal<Hardening::power, RateLaw::power, true, true>;
 
 PointHistory<double> virgin(const MetalParameters& metal) {
   PointHistory<double> s{};
   s.temperature = metal.flow.room_temperature;
-  s.static_stress = static_flow<true, true>(metal.flow, 0.0, s.temperature).stress;
+  s.static_stress = static_flow<Hardening::power, true>(metal.flow, 0.0, s.temperature).stress;
   return s;
 }
 
@@ -90,7 +90,7 @@ TEST(MaterialPoint_UniaxialAndShear, WhileFlowing_StressLiesOnTheFlowCurve) {
       const double before = s.strain;
       const PointResult<double> r = update_point<Law>(metal, h, {dt, true}, s);
       if (s.strain == before) continue;
-      const double flow = static_flow<true, true>(metal.flow, s.strain, s.temperature).stress *
+      const double flow = static_flow<Hardening::power, true>(metal.flow, s.strain, s.temperature).stress *
                           std::pow(1.0 + (s.strain - before) / dt / metal.flow.reference_rate, metal.flow.C);
       ASSERT_NEAR(mises(cauchy(r, h)), flow, 1e-9 * flow) << (shear ? "shear " : "uniaxial ") << i;
     }
@@ -100,7 +100,7 @@ TEST(MaterialPoint_UniaxialAndShear, WhileFlowing_StressLiesOnTheFlowCurve) {
 
 // rho cp dT = chi W_p, and flow keeps the volume: det Cp = 1. 2000 steps of rounding, each below 4 eps: 2e-12.
 TEST(MaterialPoint_CyclicShear, ManySteps_HeatMatchesWorkAndFlowIsIsochoric) {
-  using NoExpansion = Metal<true, RateLaw::power, true, false>;
+  using NoExpansion = Metal<Hardening::power, RateLaw::power, true, false>;
   const MetalParameters metal = metal_parameters(testing::al6xn());
   PointHistory<double> s = virgin(metal);
   double work = 0.0;

@@ -49,7 +49,7 @@ std::vector<Hard> hard_cases() {
 
 template <RateLaw Rate>
 void expect_on_yield_surface(const Hard& c, double guess) {
-  const double yield = static_flow<true, true>(c.law, c.strain, c.temperature).stress;
+  const double yield = static_flow<Hardening::power, true>(c.law, c.strain, c.temperature).stress;
   const FlowProblem<double> f{yield * (1.0 + c.overstress),
                               1.0,
                               c.strain,
@@ -57,8 +57,8 @@ void expect_on_yield_surface(const Hard& c, double guess) {
                               triple_shear,
                               c.beta,
                               Rate == RateLaw::none ? 0.0 : c.law.reference_rate * c.dt};
-  const FlowResult<double> r = solve_flow<true, true, Rate>(c.law, f, true, guess);
-  const double flow = static_flow<true, true>(c.law, c.strain + r.increment, r.temperature).stress;
+  const FlowResult<double> r = solve_flow<Hardening::power, true, Rate>(c.law, f, true, guess);
+  const double flow = static_flow<Hardening::power, true>(c.law, c.strain + r.increment, r.temperature).stress;
   double factor = 1.0;
   if (Rate == RateLaw::power) factor = std::pow(1.0 + r.increment / f.rate_strain, c.law.C);
   if (Rate == RateLaw::logarithmic) factor = 1.0 + c.law.C * std::log(std::max(1.0, r.increment / f.rate_strain));
@@ -81,9 +81,9 @@ TEST(ReturnMap_HardCases, AnyGuess_EndsOnTheYieldSurface) {
 // Flow stress at rates jumping 0 -> 1e6 -> 0 within three steps: no memory of the old rate, no chatter.
 TEST(ReturnMap_RateJumps, UpAndDownAgain_GiveTheSameAnswerAsAFreshPoint) {
   const auto solve = [](double overstress, double guess) {
-    const double yield = static_flow<true, true>(steel, 0.01, 300.0).stress;
+    const double yield = static_flow<Hardening::power, true>(steel, 0.01, 300.0).stress;
     const FlowProblem<double> f{yield * (1.0 + overstress), 1.0, 0.01, 300.0, triple_shear, heating, 1e-3 * 1.2e-7};
-    return solve_flow<true, true, RateLaw::power>(steel, f, true, guess);
+    return solve_flow<Hardening::power, true, RateLaw::power>(steel, f, true, guess);
   };
   double x = 0.0;
   for (const double overstress : {1e-6, 60.0, 1e-6}) {
@@ -99,10 +99,10 @@ TEST(ReturnMap_FourLanes, OneHardOneEasyOneIdle_HoldTheBitsOfTheScalarSolve) {
   FlowProblem<Pack4> f{
       Pack4(Pack4::Raw{trial[0], trial[1], trial[2], trial[3]}), 1.0, 0.01, 300.0, triple_shear, heating, 1.2e-10};
   const Mask4 active{Mask4::Raw{-1, -1, 0, -1}};
-  const auto pack = solve_flow<true, true, RateLaw::power>(steel, f, active, Pack4(12.0));
+  const auto pack = solve_flow<Hardening::power, true, RateLaw::power>(steel, f, active, Pack4(12.0));
   for (const int i : {0, 1, 3}) {
     const FlowProblem<double> one{trial[i], 1.0, 0.01, 300.0, triple_shear, heating, 1.2e-10};
-    const auto scalar = solve_flow<true, true, RateLaw::power>(steel, one, true, 12.0);
+    const auto scalar = solve_flow<Hardening::power, true, RateLaw::power>(steel, one, true, 12.0);
     EXPECT_EQ(lane(pack.increment, i), scalar.increment) << "lane " << i;
     EXPECT_EQ(lane(pack.temperature, i), scalar.temperature) << "lane " << i;
   }

@@ -23,7 +23,7 @@ inline CaseSpec plate_case(int elements, bool quarter, double yield = 410e6) {
   spec.plate.size = {0.406, 0.406, 0.0034};
   spec.plate.elements = {elements, elements, 1};
   spec.run.quarter_symmetry = quarter;
-  for (const char* name : {"hardening", "strain_rate", "heating", "expansion"})
+  for (const char* name : {"plasticity", "hardening", "strain_rate", "heating", "expansion"})
     spec.effects.push_back({name, true, "", false});
   return spec;
 }

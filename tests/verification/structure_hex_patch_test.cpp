@@ -15,7 +15,7 @@
 namespace standoff::structure {
 namespace {
 
-using Elastic = Metal<false, RateLaw::none, false, false>;
+using Frozen = Metal<Hardening::none, RateLaw::none, false, false>;
 
 MetalParameters elastic_metal() {
   MaterialSpec m = testing::al6xn();
@@ -52,9 +52,9 @@ TEST(Hex64_PatchTest, LinearFieldOnDistortedElements_InnerForcesVanish) {
     Nodal x, u;
     distorted_nodes(e, x);
     linear_field(x, u);
-    std::vector<double> history(hex_points * Elastic::fields, 0.0);
+    std::vector<double> history(hex_points * Frozen::fields, 0.0);
     const auto sums =
-        hex64_force<Elastic>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f[e]);
+        hex64_force<Frozen>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f[e]);
     EXPECT_TRUE(sums.sound);
     for (const auto& row : f[e])
       for (const double v : row) largest = std::max(largest, std::fabs(v));
@@ -73,13 +73,13 @@ TEST(Hex64_PatchTest, LinearFieldOnADistortedElement_StoredEnergyIsThatOfUniform
   distorted_nodes(0, x);
   linear_field(x, u);
   const CurvedGeometry geometry = CurvedGeometry::of_nodes(x);
-  std::vector<double> history(hex_points * Elastic::fields, 0.0);
-  const auto sums = hex64_force<Elastic>(metal, geometry, PointStep{}, true, u, history.data(), f);
+  std::vector<double> history(hex_points * Frozen::fields, 0.0);
+  const auto sums = hex64_force<Frozen>(metal, geometry, PointStep{}, true, u, history.data(), f);
   PointHistory<double> s{};
   s.static_stress = 1e15;
   double volume = 0.0;
   for (int q = 0; q < hex_points; ++q) volume += geometry.weight(q);
-  const double expected = update_point<Elastic>(metal, uniform, PointStep{}, s).elastic * volume;
+  const double expected = update_point<Frozen>(metal, uniform, PointStep{}, s).elastic * volume;
   EXPECT_NEAR(sums.elastic / expected, 1.0, 1e-11);
 }
 
@@ -110,8 +110,8 @@ TEST(Hex64_RigidMotion, LargeRotation_LeavesNoForce) {
     u[1][a] = s * x[0][a] + c * x[1][a] - x[1][a];
     u[2][a] = -0.2;
   }
-  std::vector<double> history(hex_points * Elastic::fields, 0.0);
-  hex64_force<Elastic>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f);
+  std::vector<double> history(hex_points * Frozen::fields, 0.0);
+  hex64_force<Frozen>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f);
   // Gradients of displacements of 0.3 m over 1 mm node spacing: rounding 3e-14 of strain, times 2 G, area 1e-5 m2.
   for (const auto& row : f)
     for (const double v : row) EXPECT_NEAR(v, 0.0, 1e-12 * 2.0 * metal.shear * 1e-4) << "N";

@@ -30,7 +30,7 @@ Point stretch(double target, double rate, int steps = 4000) {
   const double step = target / steps, dt = rate > 0.0 ? step / rate : 0.0;
   PointHistory<double> s{};
   s.temperature = metal.flow.room_temperature;
-  s.static_stress = static_flow<true, true>(metal.flow, 0.0, s.temperature).stress;
+  s.static_stress = static_flow<Hardening::power, true>(metal.flow, 0.0, s.temperature).stress;
   double stretch_log = 0.0, stress = 0.0, gain = 0.0;
   Point last{}, now{0.0, 0.0, 0.0};
   while (now.strain < target) {
@@ -49,9 +49,9 @@ Point stretch(double target, double rate, int steps = 4000) {
   return {target, std::lerp(last.stress, now.stress, share), std::lerp(last.rise, now.rise, share)};
 }
 
-using Isothermal = Metal<true, RateLaw::power, false, false>;
-using Static = Metal<true, RateLaw::none, false, false>;
-using Adiabatic = Metal<true, RateLaw::power, true, false>;
+using Isothermal = Metal<Hardening::power, RateLaw::power, false, false>;
+using Static = Metal<Hardening::power, RateLaw::none, false, false>;
+using Adiabatic = Metal<Hardening::power, RateLaw::power, true, false>;
 
 TEST(JohnsonCook_StaticCurve, AlongPlasticStrain_FollowsTheClosedForm) {
   for (const auto& [p, mpa] :
@@ -89,7 +89,7 @@ TEST(JohnsonCook_AdiabaticCurve, AtOnePerSecondAndAThousand_FollowsTheIntegrated
 
 // The original law has no rate effect below its reference rate and 1 + C ln(rate/rate0) above.
 TEST(JohnsonCook_LogarithmicRate, AboveAndBelowTheReferenceRate_FollowsTheOriginalLaw) {
-  using Logarithmic = Metal<true, RateLaw::logarithmic, false, false>;
+  using Logarithmic = Metal<Hardening::power, RateLaw::logarithmic, false, false>;
   const double p = 0.1, base = 697.879;
   EXPECT_NEAR(stretch<Logarithmic>(p, 1.0).stress, base * (1.0 + 0.024 * std::log(1e3)), 1e-4 * base);
   EXPECT_NEAR(stretch<Logarithmic>(p, 0.5e-3).stress, base, 1e-4 * base);

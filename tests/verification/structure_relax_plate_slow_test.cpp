@@ -23,7 +23,7 @@ CaseSpec plate_spec() {
   m.specific_heat = 500.0, m.taylor_quinney = 0.9, m.thermal_expansion = 1.5e-5;
   spec.plate.size = {0.406, 0.406, 3.4e-3};
   spec.plate.elements = {10, 10, 1};
-  for (const char* name : {"hardening", "strain_rate", "heating", "expansion"})
+  for (const char* name : {"plasticity", "hardening", "strain_rate", "heating", "expansion"})
     spec.effects.push_back({name, true, "", false});
   return spec;
 }
