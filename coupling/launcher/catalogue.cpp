@@ -37,7 +37,10 @@ constexpr ModelEntry models[] = {
      "and thermal expansion; the way to rest",
      "fracture, slip under the clamp"},
     {"rigid_plate", "The surface of the plate held still.", "the load: impulse and where it lands",
-     "all motion: no deflection, and the load is that on a plate that does not recede"}};
+     "all motion: no deflection, and the load is that on a plate that does not recede"},
+    {"material_point", "One point of the plate's material, without load: `standoff run` draws its flow curves.",
+     "hardening, rate and temperature as the plate's elements compute them",
+     "the plate, the charge and everything else"}};
 
 std::string bracket_in(std::string_view text) {
   const auto begin = text.find('['), end = text.find(']');

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "structure_solver/app/energy_guard.hpp"
+
 namespace standoff::structure {
 
 namespace {
@@ -22,6 +24,7 @@ void StructureBooks::observe(const StructuralModel& model) {
   peak_work_ = std::max(peak_work_, books.external_work);
   peak_deflection_ = std::max(peak_deflection_, model.centre_deflection());
   largest_gap_ = std::max(largest_gap_, std::abs(books.balance()));
+  guard_energy(spec_, model, books, peak_work_);
 }
 
 double StructureBooks::energy_error() const {

@@ -13,7 +13,8 @@ class StructureBooks {
  public:
   explicit StructureBooks(const CaseSpec& spec) : spec_(spec) {}
 
-  /// Looks at the model after a window: peaks, and the largest gap in the energy books.
+  /// Looks at the model after a window: peaks, and the largest gap in the energy books; throws Stop(guard) when they
+  /// are open.
   void observe(const StructuralModel& model);
   /// Largest |balance| so far over the peak external work.
   double energy_error() const;

@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "coupling/base/stop.hpp"
 #include "coupling/output/atomic_file.hpp"
 #include "coupling/output/csv_table.hpp"
 #include "coupling/output/vtk_file.hpp"
+#include "structure_solver/app/energy_guard.hpp"
 #include "structure_solver/app/structure_books.hpp"
 
 namespace standoff::structure {
@@ -20,12 +22,12 @@ class PlateFiles {
     if (!folder.empty()) series_.emplace(folder + "/plate", "plate", "vtu");
   }
   void frame(double time, const StructuralModel& model) {
+    if (series_) write(time, model.frame());
+  }
+  /// The state in which a guard stopped the run, if it can be shown.
+  void last_frame(double time, const StructuralModel& model) {
     if (!series_) return;
-    const StructureFrame now = model.frame();
-    VtkGrid grid{now.position, now.cells, now.vtk_cell_type, {}, {}};
-    grid.point_data = {vtk_array("displacement_m", now.displacement), vtk_array("velocity_m_per_s", now.velocity)};
-    for (const auto& [name, values] : now.cell_data) grid.cell_data.push_back(vtk_array(name, values));
-    series_->add(time, vtu_text(grid));
+    if (const StructureFrame now = model.frame(); can_be_shown(now)) write(time, now);
   }
   template <class Archive>
   void archive(Archive& a) {
@@ -39,6 +41,13 @@ class PlateFiles {
   }
 
  private:
+  void write(double time, const StructureFrame& now) {
+    VtkGrid grid{now.position, now.cells, now.vtk_cell_type, {}, {}};
+    grid.point_data = {vtk_array("displacement_m", now.displacement), vtk_array("velocity_m_per_s", now.velocity)};
+    for (const auto& [name, values] : now.cell_data) grid.cell_data.push_back(vtk_array(name, values));
+    series_->add(time, vtu_text(grid));
+  }
+
   std::string folder_;
   std::optional<PvdSeries> series_;
 };
@@ -118,13 +127,21 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
     }
   };
   if (clock.first == 0) observe(0.0);
-  while (const auto grant = link.next()) {
-    model->set_surface_force(grant->load.force);
-    steps += advance_model(*model, clock.window);
-    model->surface_motion(motion);
-    if (!grant->drain) observe(grant->begin + clock.window);
-    const StructureLedger now = model->ledger();
-    link.advance(motion, {now.impulse_received, now.external_work});
+  const auto follow_windows = [&] {
+    while (const auto grant = link.next()) {
+      model->set_surface_force(grant->load.force);
+      steps += advance_model(*model, clock.window);
+      model->surface_motion(motion);
+      if (!grant->drain) observe(grant->begin + clock.window);
+      const StructureLedger now = model->ledger();
+      link.advance(motion, {now.impulse_received, now.external_work});
+    }
+  };
+  try {
+    follow_windows();
+  } catch (const Stop& stop) {
+    if (stop.code() == ExitCode::guard) files.last_frame(model->time(), *model);
+    throw;
   }
   books.observe(*model);
   books.close_momentum(*model);

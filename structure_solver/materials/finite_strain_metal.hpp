@@ -67,14 +67,17 @@ struct PointResult {
 };
 
 /// be - I = H + H^T + H H^T + F (Cp^-1 - I) F^T
-template <class Law, class T>
+template <class T>
 inline Sym3<T> elastic_left_cauchy_green(const Mat3<T>& h, const Mat3<T>& f, const Sym3<T>& c) {
-  if constexpr (!Law::plasticity) {
-    auto part = [&](int i, int j) { return h.m[i][j] + h.m[j][i] + rows(h, i, h, j); };
-    return {part(0, 0), part(1, 1), part(2, 2), part(0, 1), part(1, 2), part(2, 0)};
-  }
   const Mat3<T> fc = times(f, c);
   auto part = [&](int i, int j) { return h.m[i][j] + h.m[j][i] + rows(h, i, h, j) + rows(fc, i, f, j); };
+  return {part(0, 0), part(1, 1), part(2, 2), part(0, 1), part(1, 2), part(2, 0)};
+}
+
+/// The same without flow: b - I
+template <class T>
+inline Sym3<T> left_cauchy_green(const Mat3<T>& h) {
+  auto part = [&](int i, int j) { return h.m[i][j] + h.m[j][i] + rows(h, i, h, j); };
   return {part(0, 0), part(1, 1), part(2, 2), part(0, 1), part(1, 2), part(2, 0)};
 }
 
@@ -152,7 +155,11 @@ inline PointResult<T> update_point(const MetalParameters& metal, const Mat3<T>& 
   for (auto& row : inverse_transposed.m)
     for (T& entry : row) entry *= inverse_j;
 
-  const Sym3<T> x = elastic_left_cauchy_green<Law>(h, f, s.c);
+  Sym3<T> x;
+  if constexpr (Law::plasticity)
+    x = elastic_left_cauchy_green(h, f, s.c);
+  else
+    x = left_cauchy_green(h);
   Sym3<T> dev = log_one_plus(x);  // 2 eps, then its deviator over 2
   const T twice_volumetric = trace(dev);
   const T half = T(0.5), mean = twice_volumetric * T(1.0 / 3.0);

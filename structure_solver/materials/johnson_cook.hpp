@@ -67,7 +67,7 @@ inline StaticFlow<T> static_flow(const JohnsonCook& law, T p, T temperature) {
       const T beyond = p - T(law.table.strain[static_cast<std::size_t>(k)]),
               bend(law.table.bend[static_cast<std::size_t>(k)]);
       flow.stress = fused(bend, larger(beyond, T(0.0)), flow.stress);
-      flow.by_strain += select(beyond >= T(0.0), bend, T(0.0));
+      flow.by_strain += select(T(0.0) > beyond, T(0.0), bend);
     }
   }
   if constexpr (Hard == Hardening::power) {

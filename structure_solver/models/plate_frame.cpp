@@ -50,8 +50,10 @@ CellValues cell_values(const PlateSolid& plate, long e) {
     const Mat3<double> h = box.reference_gradient(q, load_gradient(gradient, q));
     const Mat3<double> f = deformation_gradient(h);
     const Mat3<double> c = cofactor(f);
-    const Sym3<double> metric{forces.history(e, q, 0), forces.history(e, q, 1), forces.history(e, q, 2),
-                              forces.history(e, q, 3), forces.history(e, q, 4), forces.history(e, q, 5)};
+    Sym3<double> metric{};
+    if (forces.layout().strain >= 0)
+      metric = {forces.history(e, q, 0), forces.history(e, q, 1), forces.history(e, q, 2),
+                forces.history(e, q, 3), forces.history(e, q, 4), forces.history(e, q, 5)};
     Sym3<double> log = log_one_plus(elastic_left_cauchy_green(h, f, metric));  // twice the elastic strain
     const double mean = trace(log) / 3.0, j = rows(f, 0, c, 0);
     log.xx -= mean, log.yy -= mean, log.zz -= mean;

@@ -1,0 +1,83 @@
+// Plasticity hides an unstable step; the energy books do not. Beyond the stability limit the highest mode of a linear
+// plate grows by acosh(2 * 1.02^2 - 1) = 0.4 per step at 2 % excess, from rounding to yield in about a hundred steps;
+// then every step makes energy. The guard must see it within 1000 steps, and keep quiet below the limit. The limit is 2
+// / omega_max of the assembled plate by power iteration with its own stiffness (from below: 1e-3 short at most).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "coupling/base/stop.hpp"
+#include "structure_solver/app/structure_books.hpp"
+#include "tests/unit/structure_plate_case.hpp"
+
+namespace standoff::structure {
+namespace {
+
+double stability_limit(PlateHex64& model) {
+  RelaxationProblem& plate = *model.relaxation();
+  const Eigen::SparseMatrix<double> k =
+      plate.stiffness(std::vector<double>(static_cast<std::size_t>(plate.dofs()), 0.0));
+  const Eigen::Map<const Eigen::VectorXd> mass(plate.mass().data(), plate.dofs());
+  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(plate.dofs(), 0.0, 1e4).array().sin();
+  double largest = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    x = (k * x).cwiseQuotient(mass).eval();
+    largest = x.norm();
+    x /= largest;
+  }
+  return 2.0 / std::sqrt(largest);
+}
+
+struct Watched {
+  int steps = 0;  // when the guard fired; 1000 if it did not
+  std::string said;
+};
+
+/// A thousand steps under a pressure pulse of 60 us; the books are looked at every ten steps, as after a window.
+Watched watch(const CaseSpec& spec, double dt_over_limit) {
+  PlateHex64 model(spec, 1);
+  const double dt = dt_over_limit * stability_limit(model);
+  StructureBooks books(spec);
+  Watched result;
+  try {
+    for (; result.steps < 1000; result.steps += 10) {
+      const double phase = model.time() / 60e-6,
+                   pressure = phase < 1.0 ? 4e6 * std::pow(std::sin(M_PI * phase), 2) : 0.0;
+      model.set_surface_force(testing::pressure_force(model.plate().mesh(), pressure));
+      for (int i = 0; i < 10; ++i) model.step(dt);
+      books.observe(model);
+    }
+  } catch (const Stop& stop) {
+    EXPECT_EQ(stop.code(), ExitCode::guard);
+    result.said = stop.what();
+  }
+  return result;
+}
+
+TEST(EnergyGuard_UnstableStep, TwoPercentBeyondTheLimit_IsFoundWithinAThousandSteps) {
+  const Watched metal = watch(testing::plate_case(6, true), 1.02);
+  EXPECT_LT(metal.steps, 1000);
+  EXPECT_THAT(metal.said, ::testing::HasSubstr("came from nowhere at t = "));
+  EXPECT_THAT(metal.said, ::testing::HasSubstr("surface node"));
+  EXPECT_THAT(metal.said, ::testing::HasSubstr("coupling.window"));
+  CaseSpec elastic = testing::plate_case(6, true);
+  elastic.plate.material.law = MaterialLaw::elastic;
+  EXPECT_LT(watch(elastic, 1.02).steps, 1000) << "without yield it grows without bound";
+}
+
+TEST(EnergyGuard_StableStep, AtNineTenthsAndJustBelowTheLimit_KeepsQuiet) {
+  for (const double share : {0.9, 0.99}) {
+    const Watched w = watch(testing::plate_case(6, true), share);
+    EXPECT_EQ(w.said, "") << "at " << share << " of the limit";
+  }
+}
+
+// The first look: nothing has happened, and nothing is wrong.
+TEST(EnergyGuard_AtRest, BeforeAnyLoad_KeepsQuiet) {
+  const CaseSpec spec = testing::plate_case(2, true);
+  PlateHex64 model(spec, 1);
+  StructureBooks books(spec);
+  EXPECT_NO_THROW(books.observe(model));
+}
+
+}  // namespace
+}  // namespace standoff::structure
