@@ -15,7 +15,8 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-constexpr const char* kind_names[] = {"quantity", "number", "count", "flag", "text", "choice", "quantities", "counts"};
+constexpr const char* kind_names[] = {"quantity", "number",     "count",  "flag", "text",
+                                      "choice",   "quantities", "counts", "list"};
 
 struct FreeEntry {
   const char *name, *doc;

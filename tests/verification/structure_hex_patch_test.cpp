@@ -87,7 +87,7 @@ TEST(Hex64_PatchTest, LinearFieldOnADistortedElement_StoredEnergyIsThatOfUniform
 // rounding.
 TEST(Hex64_Stiffness, FreeElement_HasExactlySixZeroModes) {
   const PlateMesh mesh = make_plate_mesh({{0.01, 0.01, 0.0034}, {1, 1, 1}, false, "free", 8060.0});
-  InternalForce forces(mesh, elastic_metal(), {false, RateLaw::none, false, false}, 1);
+  InternalForce forces(mesh, elastic_metal(), {true, Hardening::none, RateLaw::none, false, false}, 1);
   auto k = std::make_unique<std::array<InternalForce::ElementMatrix, 4>>();
   const std::vector<Vec3> rest(mesh.node_count());
   forces.element_stiffness(rest, 0, *k);
