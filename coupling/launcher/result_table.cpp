@@ -62,6 +62,28 @@ std::string rest_text(const OrderedJson& record) {
   return text + "\n";
 }
 
+/// Who waited for whom, and what helps: a side is called idle when it waited for more than a quarter of its time.
+std::string balance_text(const OrderedJson& record) {
+  const auto share = [&](const char* side) {
+    const auto at = [&](const char* what) {
+      return number_at(record, fmt::format("timing.{}.{}", side, what)).value_or(0.0);
+    };
+    const double all = at("compute_s") + at("wait_s") + at("exchange_s");
+    return all > 0.0 ? at("wait_s") / all : 0.0;
+  };
+  const double particle = share("particle"), structure = share("structure");
+  if (std::max(particle, structure) < 0.25) return "";
+  const bool idle_structure = structure > particle;
+  const std::string scheme = record.contains("coupling") ? record["coupling"].value("scheme", "") : "";
+  const char* advice = scheme == "serial" && std::min(particle, structure) > 0.25
+                           ? "coupling.scheme = \"parallel\" lets both compute at once"
+                           : idle_structure ? "more --particle-threads, fewer --structure-threads"
+                                            : "more --structure-threads, fewer --particle-threads";
+  return fmt::format("the {} waited {:.0f} % of its time for the {}: {}\n",
+                     idle_structure ? "structure" : "particle side", 100.0 * std::max(particle, structure),
+                     idle_structure ? "particles" : "structure", advice);
+}
+
 std::string time_text(const OrderedJson& record) {
   Rows rows{{"", "compute", "wait", "exchange", "stages"}};
   for (const char* side : {"particle", "structure"}) {
@@ -75,7 +97,7 @@ std::string time_text(const OrderedJson& record) {
     const auto seconds = [&](const char* key) { return fmt::format("{:.1f} s", times.value(key, 0.0)); };
     rows.push_back({side, seconds("compute_s"), seconds("wait_s"), seconds("exchange_s"), stages});
   }
-  return rows.size() > 1 ? "time\n" + table_text(rows, {false, true, true, true, false}) : "";
+  return rows.size() > 1 ? "time\n" + table_text(rows, {false, true, true, true, false}) + balance_text(record) : "";
 }
 
 }  // namespace
