@@ -4,11 +4,14 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "coupling/base/stage_timer.hpp"
 #include "coupling/contract/kept_file.hpp"
 #include "coupling/contract/link.hpp"
 #include "coupling/contract/surface_fields.hpp"
+#include "coupling/contract/trace_log.hpp"
+#include "coupling/output/atomic_file.hpp"
 
 namespace standoff {
 namespace {
@@ -24,7 +27,9 @@ constexpr std::size_t kind() {
 }  // namespace
 
 struct Participant::Impl {
-  explicit Impl(ParticipantOptions given) : options(std::move(given)), link(options) {}
+  explicit Impl(ParticipantOptions given) : options(std::move(given)), link(options) {
+    if (!options.trace.empty()) trace.emplace();
+  }
 
   ParticipantOptions options;
   Link link;
@@ -36,6 +41,9 @@ struct Participant::Impl {
   Times times;
   std::int64_t earlier_bytes = 0;  // before this run was continued
   KeptState kept;
+  std::optional<TraceLog> trace;
+  const StageTimers* stages = nullptr;
+  double waited = 0.0, granted_at = 0.0;  // us, for the trace
 
   [[noreturn]] void refuse(const std::string& what, const ProtocolError& error) {
     const message::Abort failure{"broker", ExitCode::participant_lost, fmt::format("{}: {}", what, error.what()),
@@ -53,6 +61,7 @@ struct Participant::Impl {
     const Stopwatch watch;
     Parcel parcel = link.await(kinds);
     times.wait += watch.seconds();
+    waited = 1e6 * watch.seconds();
     return parcel;
   }
   void advance(const Payload& payload, const InterfaceTotals& totals) {
@@ -85,6 +94,7 @@ struct Participant::Impl {
     link.moved();
     if (!computing) throw std::logic_error("advance() without a window: call next() first");
     times.compute += since_grant.seconds();
+    if (trace) trace->window(window, waited, granted_at, TraceLog::now(), stages);
   }
 };
 
@@ -131,7 +141,12 @@ CouplingClock Participant::ready(const WindowNeeds& needs) {
   const Parcel parcel = my.await({kind<message::Start>()});
   const auto& start = std::get<message::Start>(parcel.body);
   if (start.clock.first > 0) my.take_up(start);
+  if (my.trace) my.trace->begin(my.stages);
   return start.clock;
+}
+
+void Participant::trace_stages(const StageTimers& stages) {
+  impl_->stages = &stages;
 }
 
 void Participant::keep(KeptState state) {
@@ -184,6 +199,7 @@ std::optional<Grant> Participant::next() {
   my.computing = true;
   my.times.exchange += watch.seconds();
   my.since_grant = Stopwatch();
+  if (my.trace) my.granted_at = TraceLog::now();
   return grant;
 }
 
@@ -229,6 +245,7 @@ void Participant::finish(const std::string& report_json) {
   Impl& my = *impl_;
   my.link.moved();
   my.link.flush_progress();
+  if (my.trace) write_atomically(my.options.trace, my.trace->lines(my.options.name, getpid()));
   my.link.send(message::Report{report_json});
   my.link.send(message::Bye{});
   my.await({kind<message::ByeAck>()});

@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 
+#include "coupling/base/stage_timer.hpp"
 #include "coupling/base/state_archive.hpp"
 #include "coupling/contract/surface.hpp"
 #include "coupling/session/messages.hpp"  // Role, WindowNeeds, CouplingClock, NamedValues, InterfaceTotals
@@ -34,6 +35,7 @@ struct ParticipantOptions {
   std::string version;          // software version, for the record
   double join_deadline = 60.0;  // s to wait for a broker that is not there yet
   double leave_within = 3.0;    // s a solver may go on computing after the first failure
+  std::string trace = {};       // file for what was done when (trace_log.hpp); empty: none
   bool keeps = false;           // calls keep(): takes part in checkpoints
   /// What to do after that; empty: print "standoff-NAME: error: TEXT" and end the process with the code.
   std::function<void(ExitCode, const std::string& text)> end_process = nullptr;
@@ -79,6 +81,8 @@ class Participant {
                    }});
   }
   void keep(KeptState state);
+  /// Stages that a trace shows inside a window; they must outlive the windows.
+  void trace_stages(const StageTimers& stages);
   CouplingClock ready(const WindowNeeds& needs);
   std::optional<Grant> next();
   /// Asks that no window beyond those already begun be computed; `next` then ends the loop on both sides.

@@ -31,6 +31,7 @@ ParticipantCommand participant_command(int argc, char** argv, const ParticipantI
   app.add_option("--connect", command.endpoint, "address of the broker, ipc://PATH or tcp://HOST:PORT")->required();
   app.add_option("--token", command.token, "run token, the broker's");
   app.add_option("--out", command.out, "run folder for frames and maps; without it nothing is written");
+  app.add_option("--trace", command.trace, "file for what was done when, one trace event a line");
   app.add_option("--threads", command.threads, "threads of this process")->check(CLI::Range(1, 1024));
   try {
     app.parse(argc, argv);
@@ -57,6 +58,7 @@ int participant_program(int argc, char** argv, const ParticipantIdentity& identi
     options.token = command.token;
     options.case_hash = read.hash;
     options.keeps = identity.keeps;
+    options.trace = command.trace;
     with_link(options, [&](Participant& link) { body(read.spec, command, link); });
   });
 }

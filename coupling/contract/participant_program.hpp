@@ -27,6 +27,7 @@ struct ParticipantCommand {
   std::string endpoint;    // --connect
   std::string token;       // --token
   std::string out;         // --out: run folder, empty writes nothing
+  std::string trace;       // --trace: empty writes none
   int threads = 1;         // --threads
   bool only_help = false;  // --help was asked for and printed
 };

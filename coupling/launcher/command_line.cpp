@@ -121,6 +121,8 @@ Action add_run(CLI::App& app) {
   add_max_time(verb, *texts, "stop after this wall-clock time (90, 15 min, 2 h) with exit code 5");
   verb.add_flag("--quiet", options->quiet, "print errors only");
   verb.add_option("--tape", options->tape, "records every exchange of the interface in this file")->type_name("FILE");
+  verb.add_option("--trace", options->trace, "what each process did when, for ui.perfetto.dev or chrome://tracing")
+      ->type_name("FILE");
   verb.add_option("--particles", texts->particles,
                   "replay:TAPE, a recorded load instead of the particles; --structure replay:TAPE, a recorded motion")
       ->type_name("replay:TAPE");

@@ -77,8 +77,8 @@ std::string balance_text(const OrderedJson& record) {
   const std::string scheme = record.contains("coupling") ? record["coupling"].value("scheme", "") : "";
   const char* advice = scheme == "serial" && std::min(particle, structure) > 0.25
                            ? "coupling.scheme = \"parallel\" lets both compute at once"
-                           : idle_structure ? "more --particle-threads, fewer --structure-threads"
-                                            : "more --structure-threads, fewer --particle-threads";
+                       : idle_structure ? "more --particle-threads, fewer --structure-threads"
+                                        : "more --structure-threads, fewer --particle-threads";
   return fmt::format("the {} waited {:.0f} % of its time for the {}: {}\n",
                      idle_structure ? "structure" : "particle side", 100.0 * std::max(particle, structure),
                      idle_structure ? "particles" : "structure", advice);

@@ -161,8 +161,27 @@ void RunSession::start_processes() {
   ChildCommand particles = participant("particles", folder_, endpoint, token, plan_.particle_threads);
   if (!options_.structure_tape.empty()) replay_instead(structure, options_.structure_tape);
   if (!options_.particle_tape.empty()) replay_instead(particles, options_.particle_tape);
+  if (options_.structure_command.empty()) trace_into(structure);
+  trace_into(particles);
   supervisor_.start(structure);
   supervisor_.start(particles);
+}
+
+void RunSession::trace_into(ChildCommand& command) const {
+  if (!options_.trace.empty()) command.argv.insert(command.argv.end(), {"--trace", folder_ + "/trace." + command.name});
+}
+
+/// The tracks of all processes as one file.
+void RunSession::join_traces() const {
+  if (options_.trace.empty()) return;
+  std::string all;
+  for (const char* name : {"structure", "particles"}) {
+    const std::string part = folder_ + "/trace." + name;
+    std::ifstream lines(part);
+    for (std::string line; std::getline(lines, line);) all += (all.empty() ? "" : ",\n") + line;
+    std::remove(part.c_str());
+  }
+  write_atomically(options_.trace, "{\"displayTimeUnit\": \"ms\", \"traceEvents\": [\n" + all + "\n]}\n");
 }
 
 void RunSession::take_line(const ChildProcess& child, bool error_output, const std::string& line) {
@@ -262,6 +281,7 @@ int RunSession::close(std::optional<Cause> cause) {
   }
   try {
     histories_.append(table_.finish());
+    join_traces();
   } catch (const Stop& stop) {
     if (!cause) cause = Cause{stop.code(), "", stop.what()};
   }

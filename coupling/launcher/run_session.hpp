@@ -53,6 +53,8 @@ class RunSession {
   void start_processes();
   void take_line(const ChildProcess& child, bool error_output, const std::string& line);
   void write_record();
+  void trace_into(ChildCommand& command) const;
+  void join_traces() const;
   int close(std::optional<Cause> cause);
   void explain(const Cause& cause) const;
   void print_result(const OrderedJson& record);

@@ -30,6 +30,7 @@ struct RunOptions {
   double max_time = 0.0;  // s of wall clock, 0 = none
   bool quiet = false, json = false;
   CheckpointOptions checkpoint;
+  std::string trace;                          // one track per process, for Chrome's and Perfetto's viewers
   std::string tape;                           // every exchange is recorded in it
   std::string structure_tape, particle_tape;  // recorded sides in place of the programs
 };

@@ -40,6 +40,7 @@ void run_particles(const CaseSpec& spec, const ParticleRunOptions& options, Part
   ParticleBooks books(spec, scene, loop);
   ParticleFiles files(options.out);
   Every row(spec.observe.interval), frame(spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots)));
+  link.trace_stages(loop.timers());
   link.keep([&](auto& archive) { archive(loop, books, files, row, frame); });
   const CouplingClock clock = link.ready({loop.stable_step(), window_limit(spec, scene)});
 

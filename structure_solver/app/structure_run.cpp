@@ -107,6 +107,7 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
   const double frame_interval = spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots));
   long steps = 0, samples = 0, frames = 0;
   link.offer_surface(model->surface());
+  link.trace_stages(model->timers());
   link.keep([&](auto& archive) {
     archive_model(archive, *model);
     archive(books, files, steps, samples, frames);

@@ -1,10 +1,10 @@
 // Law: a mass M on a spring K in a steady stream of particles that stick for a moment, mass flow m and speed u:
 //   M x'' + m x' + K x = m u,   x(t) = (m u / K) (1 - exp(-g t) (cos w t + g/w sin w t)),  g = m / 2M, w^2 = K/M - g^2
-// The load side knows the speed of the mass at the begin of a window and holds the force over it; the mass moves exactly
-// under a constant force. So the only error is the age of what the sides know of each other: half a window on average in
-// the serial scheme, one window more in the parallel one. Both are of first order in the window H: e(H) / e(H/2) -> 2.
-// Tolerances: the next term of the error is of second order, so the ratio differs from 2 by a term that halves with H;
-// what is left after Richardson's extrapolation is of second order, below a tenth of the error here.
+// The load side knows the speed of the mass at the begin of a window and holds the force over it; the mass moves
+// exactly under a constant force. So the only error is the age of what the sides know of each other: half a window on
+// average in the serial scheme, one window more in the parallel one. Both are of first order in the window H: e(H) /
+// e(H/2) -> 2. Tolerances: the next term of the error is of second order, so the ratio differs from 2 by a term that
+// halves with H; what is left after Richardson's extrapolation is of second order, below a tenth of the error here.
 #include <cmath>
 
 #include <gtest/gtest.h>
