@@ -240,6 +240,8 @@ int complain(const std::string& text) {
 int parse_and_call(CLI::App& app, const Actions& actions, int argc, char** argv) {
   std::vector<std::string> names;
   for (const auto& [name, action] : actions) names.push_back(name);
+  names.emplace_back("conform");
+  if (argc > 1 && argv[1] == std::string_view("conform")) return conform_verb(argv + 2);
   if (argc < 2) return complain("a verb is missing\n  " + did_you_mean("", names, "verbs") + "; see standoff --help");
   const std::string first = argv[1];
   if (!first.starts_with("-") && !actions.contains(first))
@@ -298,6 +300,7 @@ int launch(int argc, char** argv) {
   add_fact_verbs(app, actions);
   add_folder_verbs(app, actions);
   add_tape_verb(app, actions);
+  app.add_subcommand("conform", "judges any participant program by the rules of the wire: conform -- COMMAND");
   try {
     return parse_and_call(app, actions, argc, argv);
   } catch (const Stop& stop) {

@@ -97,6 +97,9 @@ struct ReportOptions {
 };
 int report_verb(const ReportOptions& options);
 
+/// Becomes standoff-conform, which has the wire in it; returns only by exception.
+int conform_verb(char** arguments);
+
 /// Prints every error and warning on standard error; true if the case is good.
 bool print_diagnostics(const CaseRead& read);
 

@@ -24,6 +24,8 @@ MAY_INCLUDE = {
     "coupling/broker": ["coupling/base", "coupling/output", "coupling/session", "coupling/schedule", "coupling/transport",
                         "coupling/contract", "coupling/tape"],
     "coupling/launcher": ["coupling/base", "coupling/case", "coupling/output", "coupling/tape"],
+    "coupling/conform": ["coupling/base", "coupling/case", "coupling/session", "coupling/transport", "coupling/contract",
+                         "coupling/launcher"],
     "particle_solver": ["coupling/base", "coupling/case", "coupling/contract", "coupling/output", "particle_solver"],
     "structure_solver": ["coupling/base", "coupling/case", "coupling/contract", "coupling/output", "structure_solver"],
     "particle_solver/kernels": ["coupling/base"],
