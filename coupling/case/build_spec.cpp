@@ -76,6 +76,14 @@ MaterialLaw law_named(const std::string& word) {
   return word == "elastic" ? MaterialLaw::elastic : MaterialLaw::johnson_cook;
 }
 
+void cell(const Fields& from, CellSpec& to) {
+  from.get("cell.grains", to.grains);
+  from.get("cell.cells", to.cells);
+  from.get("cell.strain", to.strain);
+  from.get("cell.points", to.points);
+  from.get("cell.steps", to.steps);
+}
+
 void material(const Fields& from, MaterialSpec& to) {
   to.law = law_named(from.word("plate.material.law"));
   from.get("plate.material.name", to.name);
@@ -152,6 +160,7 @@ CaseSpec build_spec(const Settings& settings) {
   spec.levels = settings.levels;
   charge(from, spec.charge);
   soil(from, spec.soil);
+  cell(from, spec.cell);
   plate(from, spec.plate);
   surroundings(from, spec);
   procedure(from, spec);

@@ -30,7 +30,12 @@ CaseRead read_case(const std::string& path, const CaseOverrides& overrides) {
   if (layers.readable) {
     Settings& settings = layers.settings;
     settings.add("case.name", {layers.name, "name of the folder", {}, rank::fallback});
-    complete(settings, diagnostics);
+    const bool cell = overrides.purpose == CasePurpose::cell ||
+                      (overrides.purpose == CasePurpose::either && describes_a_cell(settings));
+    if (cell)
+      complete_cell(settings, diagnostics);
+    else
+      complete(settings, diagnostics);
     CaseSpec spec = build_spec(settings);
     spec.folder = layers.folder;
     spec.references = layers.references;

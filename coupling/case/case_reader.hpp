@@ -8,12 +8,16 @@
 
 namespace standoff {
 
+/// What a case is read for. A unit cell needs the soil alone: whatever else the case states is left out.
+enum class CasePurpose { scene, cell, either };
+
 /// What the command line adds to a case file. Precedence: preset < use < case < level < set < the named options.
 struct CaseOverrides {
   std::string level;                                     // "" = the case's own choice
   std::vector<std::pair<std::string, std::string>> set;  // key, value as typed: --set plate.size="..." or run.until=2ms
   std::string structure_model;                           // "" = as in the case
   std::string seed;                                      // "" = as in the case
+  CasePurpose purpose = CasePurpose::scene;              // either: a cell if the case has [cell] and no [plate]
 };
 
 struct CaseRead {

@@ -51,6 +51,16 @@ struct SoilSpec {
   friend bool operator==(const SoilSpec&, const SoilSpec&) = default;
 };
 
+/// The unit cell of the soil as a material test; see `standoff cell`.
+struct CellSpec {
+  long grains = 1000;     // of one cell [Borvik 2011, sec. 3.3]
+  long cells = 5;         // samples, seeds run.seed, run.seed + 1, ...
+  double strain = 0.135;  // engineering strain along one axis at the end; lateral lengths stay, so it is that of volume
+  long points = 27;       // rows after the one at zero strain
+  long steps = 20000;     // of the compression
+  friend bool operator==(const CellSpec&, const CellSpec&) = default;
+};
+
 struct AirSpec {
   bool on = false;
   double pressure = 101300.0, density = 1.3, gamma = 1.4;
@@ -150,6 +160,7 @@ struct CaseSpec {
   std::vector<std::string> levels;  // all names, in order
   ChargeSpec charge;
   SoilSpec soil;
+  CellSpec cell;
   AirSpec air;
   DomainSpec domain;
   ContactSpec contact;

@@ -13,7 +13,28 @@ class Completion {
  public:
   Completion(Settings& settings, Diagnostics& diagnostics) : s_(settings), diagnostics_(diagnostics) {}
 
+  void run_cell() {
+    for (const std::string& section : section_names())
+      if (section != "case" && section != "soil" && section != "cell" && section != "run") s_.forget_section(section);
+    cell_only_ = true;
+    const std::string soil = s_.word("soil.kind");
+    has_soil_ = soil == "dry" || soil == "wet";
+    if (!has_soil_ && !s_.is_wrong("soil.kind"))
+      diagnostics_.error(s_.section_place("soil"), "there is no sand to test: soil.kind is \"none\"",
+                         "kind = \"dry\" or \"wet\" brings the base parameters of the paper");
+    if (!has_soil_) return;
+    expand("soil", "soil.kind");
+    soil_densities();
+    defaults();
+    require_soil();
+  }
+
   void run() {
+    if (describes_a_cell(s_)) {
+      diagnostics_.error(s_.section_place("cell"), "this case is a unit cell of sand, not a scene: there is no plate",
+                         "`standoff cell` packs and compresses it");
+      return;
+    }
     has_charge_ = s_.has_section("charge") && (s_.has("charge.mass") || !only_level("charge"));
     const std::string soil = s_.word("soil.kind");
     has_soil_ = soil == "dry" || soil == "wet";
@@ -108,10 +129,15 @@ class Completion {
     for (const KeyEntry& entry : schema()) {
       const std::string path(entry.path);
       const bool absent = (path.starts_with("charge.") && !has_charge_) ||
-                          (path.starts_with("soil.") && !has_soil_ && path != "soil.kind");
+                          (path.starts_with("soil.") && !has_soil_ && path != "soil.kind") ||
+                          (cell_only_ ? !belongs_to_a_cell(path) : path.starts_with("cell."));
       if (entry.fallback.empty() || absent || s_.has(path)) continue;
       s_.add(path, {known_value(entry.fallback, entry), "default", {}, rank::fallback});
     }
+  }
+
+  static bool belongs_to_a_cell(const std::string& path) {
+    return path.starts_with("soil.") || path.starts_with("cell.") || path == "run.seed";
   }
 
   void charge_geometry() {
@@ -177,6 +203,11 @@ class Completion {
                        key + " is missing in [" + section + "]" + (why.empty() ? "" : "; " + why),
                        key + ": " + std::string(entry.doc));
   }
+  void require_soil() {
+    for (const char* key :
+         {"packing", "grain_density", "bulk_density", "stiffness", "friction", "damping", "radius_spread"})
+      if (!s_.is_wrong("soil.packing")) require(std::string("soil.") + key);
+  }
   void require_all() {
     if (has_charge_) {
       require("charge.mass");
@@ -186,9 +217,7 @@ class Completion {
     }
     if (has_soil_) {
       require("soil.inner_radius"), require("soil.outer_radius");
-      for (const char* key :
-           {"packing", "grain_density", "bulk_density", "stiffness", "friction", "damping", "radius_spread"})
-        if (!s_.is_wrong("soil.packing")) require(std::string("soil.") + key);
+      require_soil();
     }
     if (has_charge_ || has_soil_) require("run.stand_off");
     require("plate.size");
@@ -218,13 +247,21 @@ class Completion {
 
   Settings& s_;
   Diagnostics& diagnostics_;
-  bool has_charge_ = false, has_soil_ = false;
+  bool has_charge_ = false, has_soil_ = false, cell_only_ = false;
 };
 
 }  // namespace
 
 void complete(Settings& settings, Diagnostics& diagnostics) {
   Completion(settings, diagnostics).run();
+}
+
+void complete_cell(Settings& settings, Diagnostics& diagnostics) {
+  Completion(settings, diagnostics).run_cell();
+}
+
+bool describes_a_cell(const Settings& settings) {
+  return settings.has_section("cell") && !settings.has_section("plate");
 }
 
 }  // namespace standoff

@@ -12,6 +12,7 @@ namespace {
 bool is_written(const CaseSpec& spec, const Settings& settings, std::string_view path) {
   if (!settings.has(std::string(path)) || path == "domain.size" || path.ends_with(".preset")) return false;
   if (path.starts_with("charge.") && !spec.charge.present) return false;
+  if (path.starts_with("cell.") && spec.soil.kind == SoilKind::none) return false;
   return !path.starts_with("soil.") || path == "soil.kind" || spec.soil.kind != SoilKind::none;
 }
 

@@ -16,7 +16,9 @@ bool print_diagnostics(const CaseRead& read) {
 }
 
 int check_verb(const CheckOptions& options) {
-  const CaseRead read = read_case(options.case_path, options.overrides);
+  CaseOverrides overrides = options.overrides;
+  overrides.purpose = CasePurpose::either;
+  const CaseRead read = read_case(options.case_path, overrides);
   const bool good = read.errors.empty();
   if (options.json) {
     const nlohmann::json j{{"case", read.spec.name},

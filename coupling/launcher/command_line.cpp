@@ -211,6 +211,26 @@ Action add_cost(CLI::App& app) {
   };
 }
 
+Action add_cell(CLI::App& app) {
+  auto options = std::make_shared<CellOptions>();
+  auto texts = std::make_shared<Texts>();
+  CLI::App& verb = *app.add_subcommand("cell", "unit cell of the sand: pack, compress, stress against strain");
+  add_case(verb, options->case_path);
+  verb.add_option("--seed", options->overrides.seed, "seed of the first cell")->type_name("N");
+  verb.add_option("--set", texts->set, "any key of the case, e.g. --set soil.stiffness=\"0.2 GN/m\" (may be repeated)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  verb.add_option("--out", options->out, "folder (default runs/CASE/cell-NUMBER)")->type_name("DIR");
+  verb.add_option("--threads", options->threads, "cells that are worked on at once (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  verb.add_flag("--json", options->json, "the result as JSON");
+  return [options, texts] {
+    options->overrides = with_set(options->overrides, *texts);
+    return cell_verb(*options);
+  };
+}
+
 std::vector<std::string> option_names(const CLI::App& verb) {
   std::vector<std::string> names;
   for (const CLI::Option* option : verb.get_options())
@@ -292,11 +312,8 @@ int launch(int argc, char** argv) {
   app.footer(closing);
   app.set_version_flag("--version", build_facts().version + " (" + build_facts().git + ")");
   app.require_subcommand(1);
-  Actions actions{{"run", add_run(app)},
-                  {"resume", add_resume(app)},
-                  {"check", add_check(app)},
-                  {"plan", add_plan(app)},
-                  {"cost", add_cost(app)}};
+  Actions actions{{"run", add_run(app)},   {"resume", add_resume(app)}, {"check", add_check(app)},
+                  {"plan", add_plan(app)}, {"cost", add_cost(app)},     {"cell", add_cell(app)}};
   add_fact_verbs(app, actions);
   add_folder_verbs(app, actions);
   add_tape_verb(app, actions);

@@ -1,5 +1,5 @@
 #pragma once
-// Groups of verbs put on the command line; `run`, `check`, `plan` and `cost` are in command_line.cpp.
+// Groups of verbs put on the command line; `run`, `check`, `plan`, `cost` and `cell` are in command_line.cpp.
 #include <functional>
 #include <map>
 #include <string>

@@ -66,6 +66,16 @@ struct CostOptions {
 };
 int cost_verb(const CostOptions& options);
 
+struct CellOptions {
+  std::string case_path;
+  CaseOverrides overrides;
+  std::string out;
+  int threads = 0;  // 0 = all cores
+  bool json = false;
+};
+/// Packs and compresses the unit cell of the case's sand.
+int cell_verb(const CellOptions& options);
+
 struct DocOptions {
   std::string key;  // "" = list everything
   bool json = false;

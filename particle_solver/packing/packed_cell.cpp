@@ -5,9 +5,12 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "coupling/base/counter_random.hpp"
 #include "coupling/base/stop.hpp"
+#include "particle_solver/packing/cell_cache.hpp"
 #include "particle_solver/packing/relaxation.hpp"
 #include "particle_solver/step/sand_integrate.hpp"
 
@@ -49,7 +52,6 @@ std::vector<Vec3> draw_centres(const PackedCellOptions& options) {
 }
 
 PackedCell pack(const PackedCellOptions& options) {
-  check(options);
   const std::vector<double> radii = draw_radii(options);
   PackedCell cell;
   for (const double r : radii) cell.mean_radius += r / options.count;
@@ -68,6 +70,16 @@ PackedCell pack(const PackedCellOptions& options) {
   return cell;
 }
 
+PackedCell load_or_pack(const PackedCellOptions& options) {
+  check(options);
+  const std::string folder = cell_cache_folder(), path = folder + "/" + cell_file_name(options);
+  if (!folder.empty())
+    if (std::optional<PackedCell> known = load_cell(path)) return std::move(*known);
+  PackedCell cell = pack(options);
+  if (!folder.empty()) store_cell(path, cell);
+  return cell;
+}
+
 }  // namespace
 
 const PackedCell& pack_cell(const PackedCellOptions& options) {
@@ -75,7 +87,7 @@ const PackedCell& pack_cell(const PackedCellOptions& options) {
   static std::map<PackedCellOptions, std::unique_ptr<PackedCell>> packed;
   const std::lock_guard<std::mutex> lock(guard);
   std::unique_ptr<PackedCell>& cell = packed[options];
-  if (!cell) cell = std::make_unique<PackedCell>(pack(options));
+  if (!cell) cell = std::make_unique<PackedCell>(load_or_pack(options));
   return *cell;
 }
 

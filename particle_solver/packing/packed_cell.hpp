@@ -30,7 +30,7 @@ struct PackedCell {
   int iterations = 0;
 };
 
-/// Packs, or returns the cell packed before with the same options in this process.
+/// Packs, or returns the cell packed before with the same options, by this process or by this program (cell_cache.hpp).
 const PackedCell& pack_cell(const PackedCellOptions& options);
 
 }  // namespace standoff::particles

@@ -35,6 +35,21 @@ TEST_F(LauncherFacts, NewCase_IsAcceptedAndNeverOverwritten) {
   EXPECT_EQ(read_file(root_ / "mine/first/case.toml"), "# edited\n");
 }
 
+TEST_F(LauncherFacts, CellOfASoil_IsPackedCompressedAndTold) {
+  std::ofstream(root_ / "cell.toml")
+      << "[soil]\nkind = \"dry\"\n[cell]\ngrains = 60\ncells = 2\nsteps = 500\npoints = 4\n";
+  real_programs_ = true;
+  ASSERT_EQ(run({"cell", "cell.toml", "--out", "cell", "--json"}), 0) << errors();
+  const auto told = nlohmann::json::parse(output(), nullptr, false);
+  ASSERT_TRUE(told.is_object()) << output();
+  EXPECT_EQ(told["cells"], 2);
+  EXPECT_EQ(told["points"].size(), 4u);
+  for (const char* name : {"stress_strain.csv", "cells.csv", "cell.json", "case.resolved.toml"})
+    EXPECT_TRUE(files::exists(root_ / "cell" / name)) << name;
+  EXPECT_EQ(run({"cell", "cell.toml", "--out", "cell"}), 2) << "overwritten";
+  EXPECT_EQ(run({"run", "cell.toml"}), 2) << "a unit cell is no scene";
+}
+
 TEST_F(LauncherFacts, NewWithoutFolder_PrintsTheCase) {
   ASSERT_EQ(run({"new"}), 0) << errors();
   std::ofstream(root_ / "printed.toml") << output();

@@ -7,10 +7,11 @@
 A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- end -->`. Commands:
 
     result RUN                  one run beside the figures of the case's reference.toml, with its certificate
+    cell   CELL ...             folders of `standoff cell`: packing of each, then modulus and lateral stress against strain
     cost   STUDY/cost.csv ...   a row per level of each study, with its name: mean and spread over seeds, seconds
 
-RUN and STUDY are folders runs/CASE/NAME. They are not committed: what a block needs is kept in the folder of the case, run.json,
-reduced, as results/NAME.json and cost.csv as results/NAME.csv (cost.csv where NAME is cost-NUMBER). Blocks are made from
+RUN, CELL and STUDY are folders runs/CASE/NAME. They are not committed: what a block needs is kept in the folder of the case, run.json,
+reduced, or cell.json as results/NAME.json and cost.csv as results/NAME.csv (cost.csv where NAME is cost-NUMBER). Blocks are made from
 these copies alone. An input may also be such a copy itself.
 """
 import argparse
@@ -73,6 +74,11 @@ def read_record(folder):
     return json.loads((folder / "run.json").read_text(), parse_float=lambda digits: float(f"{float(digits):.6g}"))
 
 
+def kept_of_cell(folder):
+    found = json.loads((folder / "cell.json").read_text(), parse_float=lambda digits: float(f"{float(digits):.6g}"))
+    return json.dumps(found, indent=1) + "\n"
+
+
 def changed_values(run_folder):
     return re.findall(r"^(\w+ = \S.*?) +# --set$", (run_folder / "case.resolved.toml").read_text(), re.M)
 
@@ -103,7 +109,8 @@ def keep(text):
     if source == copy or not source.exists():
         return
     copy.parent.mkdir(exist_ok=True)
-    copy.write_text(kept_of_study(source) if source.suffix == ".csv" else kept_of_run(source))
+    kept = kept_of_study if source.suffix == ".csv" else kept_of_cell if (source / "cell.json").exists() else kept_of_run
+    copy.write_text(kept(source))
 
 
 def result(copy):
@@ -160,7 +167,25 @@ def cost(*copies):
                           f"seconds on {'; '.join(sorted({head['cpu'] for head, _ in studies}))}.\n")
 
 
-COMMANDS = {"result": result, "cost": cost}
+def cell(*copies):
+    tests = [json.loads(copy.read_text()) for copy in copies]
+    names = [f"k0 {t['stiffness_N_per_m'] / 1e9:g} GN/m, friction {t['friction']:g}, damping {t['damping']:g}" for t in tests]
+    packed = [["cells", "packing", "contacts a grain", "largest overlap, % of a diameter", "residual axial / lateral MPa"]]
+    with_spread = lambda t, key, factor, form: f"{factor * t[key]['mean']:{form}} ± {factor * t[key]['deviation']:{form}}"
+    for test, name in zip(tests, names):
+        packed.append([f"{test['cells']} of {test['grains']}, {name}", f"{test['packing']:g}", with_spread(test, "coordination", 1, ".2f"),
+                       with_spread(test, "overlap_over_diameter", 100, ".2g"),
+                       f"{with_spread(test, 'residual_axial_Pa', 1e-6, '.3g')} / {with_spread(test, 'residual_lateral_Pa', 1e-6, '.3g')}"])
+    rows = [["strain", *(f"{what}, {name}" for name in names for what in ("secant K GPa", "lateral / axial"))]]
+    points = tests[0]["points"]
+    for n in range((len(points) - 1) % 2, len(points), 2):
+        cells = [(t["points"][n]["secant_bulk_modulus_Pa"] / 1e9, t["points"][n]["secant_bulk_modulus_deviation_Pa"] / 1e9,
+                  t["points"][n]["lateral_over_axial"]) for t in tests]
+        rows.append([f"{points[n]['strain']:.1%}", *(text for k, d, r in cells for text in (f"{k:.2f} ± {d:.2f}", f"{r:.3f}"))])
+    return table(packed) + "\n" + table(rows) + "\nMean ± standard deviation over cells; residual stress subtracted.\n"
+
+
+COMMANDS = {"result": result, "cell": cell, "cost": cost}
 
 
 def block_text(match):
