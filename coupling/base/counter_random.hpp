@@ -31,6 +31,9 @@ enum class RandomUse : std::uint32_t {
   cell_radius,
   cell_offset,
   boundary,
+  air_fill,
+  air_inflow,
+  air_collision,
   test,
 };
 

@@ -32,7 +32,6 @@ class SceneCheck {
     plate();
     domain();
     times();
-    air();
   }
 
  private:
@@ -212,15 +211,6 @@ class SceneCheck {
               fmt::format("interval {} is longer than the run, until = {}", seconds(spec_.observe.interval),
                           seconds(spec_.run.until)),
               "histories.csv has a row every interval");
-  }
-
-  void air() {
-    const Setting* override_ = settings_.find("effects.air");
-    const bool stated = override_ && settings_.word("effects.air") == "on";
-    if (stated || spec_.air.on)
-      diagnostics_.error(settings_.blame(spec_.air.on ? Paths{"air.mode"} : Paths{"effects.air"}),
-                         "ambient air is not available in this version",
-                         "air.mode = \"off\" computes the charge in vacuum");
   }
 
   const CaseSpec& spec_;

@@ -79,7 +79,18 @@ EffectFinding co_volume(const CaseSpec& spec) {
 }
 
 EffectFinding air(const CaseSpec& spec) {
-  return {true, spec.air.on, spec.air.on ? "air.mode = \"on\"" : "air.mode = \"off\": nothing around charge and plate"};
+  if (!spec.air.on) return nothing("air.mode = \"off\": nothing around charge and plate");
+  return {true, true,
+          fmt::format("air.mode = \"on\": {:.4g} kg/m3 at {:.4g} Pa, simulated where it does not stand still",
+                      spec.air.density, spec.air.pressure)};
+}
+
+EffectFinding ambient_pressure(const CaseSpec& spec) {
+  if (!spec.air.on) return nothing("there is no air");
+  return {
+      true, true,
+      fmt::format("{:.4g} Pa on the rear of the plate: {:.3g} N s over the run, as much as still air gives its front",
+                  spec.air.pressure, spec.air.pressure * spec.plate.size.x * spec.plate.size.y * spec.run.until)};
 }
 
 // ---- sand ----
@@ -195,6 +206,7 @@ const std::vector<EffectRule>& effect_rules() {
       {"internal_energy", "Gas particles exchange energy of rotation and vibration in collisions.", internal_energy},
       {"co_volume", "Gas particles are spheres with a volume of their own.", co_volume},
       {"air", "Ambient air around charge and plate.", air},
+      {"ambient_pressure", "Ambient pressure on the rear of the plate.", ambient_pressure},
       {"friction", "Coulomb friction between grains.", friction},
       {"damping", "Normal dashpot between grains.", damping},
       {"radius_spread", "Grains of different size.", radius_spread},

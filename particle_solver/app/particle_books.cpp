@@ -41,6 +41,11 @@ NamedValues ParticleBooks::sample(double time) {
                            {"gas_internal_J", full * energy.gas_internal},
                            {"gas_kinetic_J", full * energy.gas_kinetic}});
   }
+  if (scene_.has_air) {
+    row.insert(row.end(), {{"impulse_air_Ns", full * totals.impulse_air},
+                           {"air_internal_J", full * energy.air_internal},
+                           {"air_kinetic_J", full * energy.air_kinetic}});
+  }
   if (scene_.has_sand) {
     row.insert(row.end(), {{"impulse_sand_Ns", full * totals.impulse_sand},
                            {"sand_kinetic_J", full * energy.sand_kinetic},
@@ -50,7 +55,7 @@ NamedValues ParticleBooks::sample(double time) {
     if (spec_.effect("friction")) row.emplace_back("friction_loss_J", full * energy.friction_loss);
     if (spec_.effect("damping")) row.emplace_back("damping_loss_J", full * energy.damping_loss);
   }
-  row.insert(row.end(), {{"boundary_work_J", 0.0},
+  row.insert(row.end(), {{"boundary_work_J", full * energy.inflow},
                          {"escaped_J", full * energy.escaped},
                          {"work_to_structure_J", full * energy.work_to_structure}});
   return row;
@@ -74,6 +79,7 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
   auto& results = j["results"];
   results["impulse_Ns"] = -full * scene_.sheet.total_impulse().z;
   if (scene_.has_gas) results["impulse_gas_Ns"] = full * totals.impulse_gas;
+  if (scene_.has_air) results["impulse_air_Ns"] = full * totals.impulse_air;
   if (scene_.has_sand) results["impulse_sand_Ns"] = full * totals.impulse_sand;
   results["incoming_momentum_Ns"] = full * totals.incoming;
   results["rebound_momentum_Ns"] = full * loop_.rebound();
@@ -94,6 +100,17 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
     counts["sand_particles"] = scene_.sand_particles * spec_.copies();
     counts["simulated_sand_particles"] = scene_.sand_particles;
   }
+  if (scene_.has_air) {
+    const Air& air = *scene_.air;
+    counts["air_particles"] = spec_.air.particles;
+    counts["simulated_air_particles"] = air.next_id;
+    counts["simulated_air_particles_at_end"] = air.particles.size();
+    j["air"] = {{"mean_free_path_m", air.mean_free_path},
+                {"knudsen_number", air.mean_free_path / spec_.run.stand_off},
+                {"compressibility_factor", 1.0},
+                {"cell_m", air.cells.width().z},
+                {"awake_volume_m3", full * static_cast<double>(air.cells.awake_count()) * air.cells.volume()}};
+  }
   counts["particle_steps"] = totals.particle_steps;
   counts["slipped_below_the_surface"] = loop_.boundary_totals().slipped;
   counts["deferred_hits"] = totals.deferred_hits;
@@ -104,6 +121,10 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
   hash.add(std::span<const Vec3>(scene_.gas.position));
   hash.add(std::span<const Vec3>(scene_.gas.velocity));
   hash.add(std::span<const double>(scene_.gas.internal_energy));
+  if (scene_.has_air) {
+    hash.add(std::span<const Vec3>(scene_.air->particles.position));
+    hash.add(std::span<const Vec3>(scene_.air->particles.velocity));
+  }
   hash.add(std::span<const Vec3>(scene_.sand.position));
   hash.add(std::span<const Vec3>(scene_.sand.velocity));
   j["provenance"]["state_hash"] = hash.hex();

@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "coupling/base/counter_random.hpp"
+#include "particle_solver/kernels/gamma_variate.hpp"
 
 namespace standoff::particles {
 
@@ -67,6 +68,21 @@ inline EnergyExchange larsen_borgnakke(double mu, double v_n, double e_i, double
   result.normal_velocity = std::sqrt(2.0 * normal / mu);
   result.energy_i = rest * symmetric_beta(0.5 * zeta, random);
   result.energy_j = rest - result.energy_i;
+  return result;
+}
+
+/// The same for two kinds of particles: mean exponent, and shares Beta(zeta_i / 2, zeta_j / 2) as a ratio of Gammas.
+inline EnergyExchange larsen_borgnakke_unlike(double mu, double v_n, double e_i, double e_j, double zeta_i,
+                                              double zeta_j, CounterRandom& random) {
+  if (zeta_i == zeta_j) return larsen_borgnakke(mu, v_n, e_i, e_j, zeta_i, random);
+  const double total = 0.5 * mu * v_n * v_n + e_i + e_j;
+  const double normal = total * -std::expm1(std::log1p(-random.uniform()) / (0.5 * (zeta_i + zeta_j)));
+  const double a = zeta_i > 0.0 ? gamma_variate(0.5 * zeta_i, random) : 0.0;
+  const double b = zeta_j > 0.0 ? gamma_variate(0.5 * zeta_j, random) : 0.0;
+  EnergyExchange result;
+  result.normal_velocity = std::sqrt(2.0 * normal / mu);
+  result.energy_i = (total - normal) * (a / (a + b));
+  result.energy_j = total - normal - result.energy_i;
   return result;
 }
 

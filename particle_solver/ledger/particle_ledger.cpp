@@ -6,7 +6,8 @@
 namespace standoff::particles {
 
 double ParticleLedger::observe(const ParticleEnergy& energy) {
-  const double error = initial_energy_ > 0.0 ? std::abs(energy.total() - initial_energy_) / initial_energy_ : 0.0;
+  const double scale = initial_energy_ + std::max(0.0, energy.inflow);
+  const double error = scale > 0.0 ? std::abs(energy.total() - initial_energy_) / scale : 0.0;
   energy_error_ = std::max(energy_error_, error);
   return error;
 }

@@ -8,13 +8,15 @@ namespace standoff::particles {
 
 /// One reading of the books, J. Columns of absent media stay zero and are not reported.
 struct ParticleEnergy {
+  double air_kinetic = 0.0, air_internal = 0.0;
   double gas_kinetic = 0.0, gas_internal = 0.0, sand_kinetic = 0.0, sand_elastic = 0.0;
   double friction_loss = 0.0, damping_loss = 0.0, contact_loss = 0.0;  // since the start; contact: grains on the plate
   double escaped = 0.0;                                                // carried out of the domain
   double work_to_structure = 0.0;                                      // done on the plate
+  double inflow = 0.0;  // brought in by ambient air, work of its pressure on the rear of the plate included
   double total() const {
-    return gas_kinetic + gas_internal + sand_kinetic + sand_elastic + friction_loss + damping_loss + contact_loss +
-           escaped + work_to_structure;
+    return air_kinetic + air_internal + gas_kinetic + gas_internal + sand_kinetic + sand_elastic + friction_loss +
+           damping_loss + contact_loss + escaped + work_to_structure - inflow;
   }
 };
 
@@ -25,7 +27,7 @@ class ParticleLedger {
     initial_energy_ = energy.total();
     initial_momentum_ = momentum;
   }
-  /// Books one reading; returns |balance| / initial energy of this one.
+  /// Books one reading; returns |balance| over (initial energy + inflow) of this one.
   double observe(const ParticleEnergy& energy);
   /// Largest so far: run.json conservation.energy_error_particles.
   double energy_error() const { return energy_error_; }

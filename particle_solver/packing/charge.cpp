@@ -8,6 +8,7 @@
 
 #include "coupling/base/counter_random.hpp"
 #include "coupling/base/stop.hpp"
+#include "particle_solver/kernels/gamma_variate.hpp"
 #include "particle_solver/kernels/larsen_borgnakke.hpp"
 #include "particle_solver/packing/charge_positions.hpp"
 
@@ -35,20 +36,6 @@ void check(const ChargeSpec& charge, int copies, long count) {
   if (!(charge.mass > 0.0 && charge.radius > 0.0 && explosive.density > 0.0 && explosive.energy > 0.0))
     refuse(fmt::format("charge: mass {} kg, radius {} m, density {} kg/m3 and energy {} J/m3 must all be positive",
                        charge.mass, charge.radius, explosive.density, explosive.energy));
-}
-
-/// Gamma(shape) variate [Marsaglia & Tsang, ACM Trans. Math. Softw. 26 (2000) 363, sec. 3 and, for shape < 1, sec. 6].
-double gamma_variate(double shape, CounterRandom& random) {
-  if (shape < 1.0) {
-    const double larger = gamma_variate(shape + 1.0, random);
-    return larger * std::pow(random.uniform(), 1.0 / shape);
-  }
-  const double d = shape - 1.0 / 3.0, c = 1.0 / std::sqrt(9.0 * d);
-  for (;;) {
-    const double x = random.normal(), v = (1.0 + c * x) * (1.0 + c * x) * (1.0 + c * x);
-    if (v <= 0.0) continue;
-    if (std::log(random.uniform()) < 0.5 * x * x + d - d * v + d * std::log(v)) return d * v;
-  }
 }
 
 /// Pairs v, -v; an odd count closes with three velocities of equal size 120 degrees apart.

@@ -7,6 +7,7 @@
 
 #include "particle_solver/packing/charge.hpp"
 #include "particle_solver/packing/sand_shell.hpp"
+#include "particle_solver/scene/ambient_air.hpp"
 #include "particle_solver/step/detonate.hpp"
 
 namespace standoff::particles {
@@ -31,6 +32,8 @@ Scene build_scene(const CaseSpec& spec, const SurfaceMesh& mesh, int threads) {
     scene.gas = build_charge(spec.charge, scene.centre, spec.copies(), spec.run.seed);
     if (!spec.effect("detonation_timing")) detonate(scene.gas, std::numeric_limits<double>::infinity());
   }
+  scene.has_air = spec.effect("air");
+  if (scene.has_air) scene.air = build_air(spec);
   if (scene.has_sand) {
     SandBody body =
         fill_shell(spec.soil, {.centre = scene.centre, .quarter = quarter, .seed = spec.run.seed, .threads = threads});

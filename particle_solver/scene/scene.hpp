@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coupling/case/case_spec.hpp"
+#include "particle_solver/state/air.hpp"
 #include "particle_solver/state/media.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
 #include "particle_solver/step/sand_pairs.hpp"
@@ -14,9 +15,10 @@ namespace standoff::particles {
 struct Scene {
   explicit Scene(SurfaceSheet surface) : sheet(std::move(surface)) {}
 
-  bool has_gas = false, has_sand = false;
-  GasState gas;    // empty without a charge
-  SandState sand;  // empty without soil
+  bool has_gas = false, has_sand = false, has_air = false;
+  GasState gas;              // empty without a charge
+  SandState sand;            // empty without soil
+  std::unique_ptr<Air> air;  // null in vacuum
   std::optional<SandPairsOptions> sand_law;
   SurfaceSheet sheet;
   Vec3 centre;                                    // m, of the charge

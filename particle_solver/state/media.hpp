@@ -12,7 +12,7 @@
 
 namespace standoff::particles {
 
-/// Detonation products (and later air): equal hard spheres with a reservoir of internal energy.
+/// Detonation products: equal hard spheres with a reservoir of internal energy. Air: points with one, see air.hpp.
 struct GasState {
   double mass = 0.0;    // kg, one particle
   double radius = 0.0;  // m
@@ -25,6 +25,7 @@ struct GasState {
   std::vector<Vec3> latent_impulse;     // N s taken by an unreleased particle, given back at release; empty likewise
   std::vector<double>
       plate_rebound;  // kg m/s towards the charge after the last contact with the plate; NaN before the first
+  std::vector<std::uint8_t> disturbed;  // air: 1 once anything but still air has touched it; empty for products
   std::vector<std::uint32_t> id;
   std::size_t size() const { return position.size(); }
   bool all_released() const { return released.empty(); }
@@ -65,6 +66,8 @@ struct BoundaryBooks {
   Vec3 surround_impulse;        // N s given to the rigid cover around the plate
   Vec3 escaped_momentum;        // kg m/s carried away
   double escaped_energy = 0.0;  // J, kinetic + internal
+  Vec3 inflow_momentum;         // kg m/s brought in by ambient air, and N s of its pressure on the rear of the plate
+  double inflow_energy = 0.0;   // J, likewise: energy of the air that came in plus the work of the rear pressure
 };
 
 }  // namespace standoff::particles

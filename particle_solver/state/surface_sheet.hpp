@@ -84,6 +84,7 @@ class SurfaceSheet {
   void collect_load(double window, SurfaceLoad& load);
 
   std::size_t plate_nodes() const;
+  std::size_t plate_faces() const { return plate_faces_; }
   Vec3 total_impulse() const;     // N s on the plate's nodes since the start
   Vec3 surround_impulse() const;  // N s on rigid-ring nodes since the start
   double total_work() const;      // J given to the plate since the start

@@ -23,6 +23,11 @@ void drop(std::vector<T>& values, const std::vector<std::uint32_t>& out) {
   values.resize(write);
 }
 
+/// kg m/s after the last contact with the plate, 0 before the first.
+double rebound(const std::vector<double>& last, std::uint32_t i) {
+  return last.empty() || std::isnan(last[i]) ? 0.0 : last[i];
+}
+
 double radius_of(const GasState& gas, std::size_t) {
   return gas.radius;
 }
@@ -90,22 +95,28 @@ void Boundaries::find(const State& state, const Limits& limits, std::vector<std:
   }
 }
 
+void Boundaries::take_out(GasState& gas, const std::vector<std::uint32_t>& out, BoundaryBooks& books) {
+  if (out.empty()) return;
+  for (const std::uint32_t i : out) {
+    const Vec3& v = gas.velocity[i];
+    books.escaped_momentum += v * gas.mass;
+    books.escaped_energy += 0.5 * gas.mass * squared_norm(v);
+    if (!gas.internal_energy.empty()) books.escaped_energy += gas.internal_energy[i];
+    totals_.gas_rebound += rebound(gas.plate_rebound, i);
+  }
+  totals_.gas += static_cast<long>(out.size());
+  drop(gas.position, out), drop(gas.velocity, out), drop(gas.internal_energy, out);
+  drop(gas.release_time, out), drop(gas.released, out), drop(gas.latent_impulse, out);
+  drop(gas.plate_rebound, out), drop(gas.disturbed, out), drop(gas.id, out);
+}
+
 const BoundaryChanges& Boundaries::run(GasState* gas, SandState* sand, const SurfaceSheet* sheet,
                                        BoundaryBooks& books) {
   const Limits now = limits(sheet);
   changes_.gas.clear(), changes_.sand.clear();
-  const auto rebound = [](const std::vector<double>& last, std::uint32_t i) {
-    return last.empty() || std::isnan(last[i]) ? 0.0 : last[i];
-  };
   if (gas != nullptr) find(*gas, now, changes_.gas);
   if (sand != nullptr) find(*sand, now, changes_.sand);
-  for (const std::uint32_t i : changes_.gas) {
-    const Vec3& v = gas->velocity[i];
-    books.escaped_momentum += v * gas->mass;
-    books.escaped_energy += 0.5 * gas->mass * squared_norm(v);
-    if (!gas->internal_energy.empty()) books.escaped_energy += gas->internal_energy[i];
-    totals_.gas_rebound += rebound(gas->plate_rebound, i);
-  }
+  if (gas != nullptr) take_out(*gas, changes_.gas, books);
   for (const std::uint32_t i : changes_.sand) {
     const double mass = sand->mass_of(i);
     books.escaped_momentum += sand->velocity[i] * mass;
@@ -113,12 +124,7 @@ const BoundaryChanges& Boundaries::run(GasState* gas, SandState* sand, const Sur
     totals_.sand_mass += mass;
     totals_.sand_rebound += rebound(sand->plate_rebound, i);
   }
-  totals_.gas += static_cast<long>(changes_.gas.size()), totals_.sand += static_cast<long>(changes_.sand.size());
-  if (const auto& out = changes_.gas; !out.empty()) {
-    drop(gas->position, out), drop(gas->velocity, out), drop(gas->internal_energy, out);
-    drop(gas->release_time, out), drop(gas->released, out), drop(gas->latent_impulse, out);
-    drop(gas->plate_rebound, out), drop(gas->id, out);
-  }
+  totals_.sand += static_cast<long>(changes_.sand.size());
   if (const auto& out = changes_.sand; !out.empty()) {
     drop(sand->grain_radius, out), drop(sand->grain_mass, out), drop(sand->position, out), drop(sand->velocity, out);
     drop(sand->force, out), drop(sand->plate_rebound, out), drop(sand->id, out);

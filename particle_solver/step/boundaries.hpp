@@ -40,6 +40,8 @@ class Boundaries {
   explicit Boundaries(const BoundaryOptions& options);
   /// `gas`, `sand`, `sheet` may be null. Call when nobody holds indices into the arrays.
   const BoundaryChanges& run(GasState* gas, SandState* sand, const SurfaceSheet* sheet, BoundaryBooks& books);
+  /// Takes the gas particles named by `out` (ascending) out and books them.
+  void take_out(GasState& gas, const std::vector<std::uint32_t>& out, BoundaryBooks& books);
   const BoundaryTotals& totals() const { return totals_; }
   template <class Archive>
   void archive(Archive& a) {

@@ -42,6 +42,12 @@ TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
     pairs_->forces(scene.sand, 0.0);
     contact_ = std::make_unique<SurfaceContact>(surface_contact_options(spec, scene.sand_law->law.stiffness, threads));
   }
+  if (scene.has_air) {
+    air_collide_ = std::make_unique<AirCollide>(spec.run.seed, threads);
+    air_drift_ = std::make_unique<AirDrift>(spec.run.quarter_symmetry, threads);
+    air_boundaries_ =
+        std::make_unique<AirBoundaries>(AirBoundariesOptions{spec.run.seed, spec.effect("ambient_pressure")});
+  }
   compose();
 }
 
@@ -78,6 +84,7 @@ void TimeLoop::compose() {
   // Between the half kick and the drift no force is pending: a grain may leave without its neighbours losing momentum.
   add(begin_step_, "boundaries",
       [this, gas, sand](double, double) { boundaries_.run(gas, sand, &scene_.sheet, books_); });
+  if (scene_.has_air) compose_air();
   if (gas) {
     if (!gas->all_released()) add(sub_step_, "detonate", [this](double time, double) { detonate(scene_.gas, time); });
     add(sub_step_, "gas_collide", [this, sand](double, double h) {
@@ -98,6 +105,25 @@ void TimeLoop::compose() {
     add(end_step_, "sand_pairs", [this](double, double h) { pairs_->forces(scene_.sand, h); });
     add(end_step_, "sand_integrate", kick);
   }
+}
+
+void TimeLoop::compose_air() {
+  SandState* sand = scene_.has_sand ? &scene_.sand : nullptr;
+  GasState* gas = scene_.has_gas ? &scene_.gas : nullptr;
+  const auto number = [this] { return static_cast<std::uint32_t>(totals_.steps); };
+  add(begin_step_, "air_collide",
+      [this, gas, number](double, double h) { air_collide_->run(*scene_.air, gas, h, number()); });
+  add(begin_step_, "air_drift", [this, sand](double, double h) {
+    const AirDriftCounts now = air_drift_->run(*scene_.air, sand, &scene_.sheet, h);
+    totals_.impulse_air += now.plate_impulse;
+    totals_.incoming += now.plate_incoming;
+    books_.mirror_impulse += now.mirror_impulse;
+  });
+  add(begin_step_, "air_boundaries", [this, gas, sand, number](double, double h) {
+    totals_.impulse_air +=
+        air_boundaries_->run(*scene_.air, gas, sand, &scene_.sheet, boundaries_, books_, h, number());
+    totals_.particle_steps += static_cast<long>(scene_.air->particles.size());
+  });
 }
 
 double TimeLoop::sand_step_limit() const {
@@ -129,13 +155,19 @@ void TimeLoop::step(double time, double dt, long gas_steps) {
   totals_.limited_by = gas_steps > 1 ? "gas_collide" : (scene_.has_sand ? "sand_pairs" : "window");
 }
 
+/// A sand step, or what the gas alone asks for. Beside air that moves once a step the gas takes up to eight sub-steps.
+double TimeLoop::outer_step_limit() const {
+  if (pairs_ && scene_.sand.size() > 0) return sand_step_limit();
+  return scene_.has_air && gas_ ? 8.0 * gas_step_ : stable_step();
+}
+
 void TimeLoop::advance(double begin, double window) {
   gas_step_cap_ = window;
   const double end = begin + window;
   double time = begin;
   while (end - time > 1e-9 * window) {
-    // A sand step, or what the gas alone asks for; equal parts of what is left, so that no sliver remains.
-    const double limit = pairs_ && scene_.sand.size() > 0 ? sand_step_limit() : stable_step();
+    // Equal parts of what is left, so that no sliver remains.
+    const double limit = outer_step_limit();
     const long count = steps_to_fill(end - time, limit);
     const double dt = (end - time) / static_cast<double>(count);
     step(time, dt, gas_steps(dt));
@@ -161,6 +193,12 @@ ParticleEnergy TimeLoop::energy() const {
     energy.damping_loss = pairs_->books().damping_loss;
     energy.contact_loss = totals_.contact_loss;
   }
+  if (scene_.has_air) {
+    const GasTotals air = gas_totals(scene_.air->particles);
+    energy.air_kinetic = air.kinetic;
+    energy.air_internal = air.internal;
+    energy.inflow = books_.inflow_energy;
+  }
   energy.escaped = books_.escaped_energy;
   energy.work_to_structure = scene_.sheet.total_work();
   return energy;
@@ -170,6 +208,7 @@ Vec3 TimeLoop::momentum_everywhere() const {
   Vec3 sum =
       books_.mirror_impulse + books_.escaped_momentum + scene_.sheet.total_impulse() + scene_.sheet.surround_impulse();
   if (scene_.has_gas) sum += gas_totals(scene_.gas).momentum;
+  if (scene_.has_air) sum += gas_totals(scene_.air->particles).momentum - books_.inflow_momentum;
   if (scene_.has_sand) sum += momentum(scene_.sand) + pairs_->books().mirror_impulse;
   return sum;
 }
@@ -178,11 +217,14 @@ double TimeLoop::impulse_scale() const {
   double scale = norm(books_.mirror_impulse) + norm(books_.escaped_momentum) + norm(scene_.sheet.total_impulse()) +
                  norm(scene_.sheet.surround_impulse());
   if (scene_.has_sand) scale += norm(pairs_->books().mirror_impulse);
+  if (scene_.has_air) scale += norm(books_.inflow_momentum);
   return scale;
 }
 
 double TimeLoop::rebound() const {
   double sum = boundaries_.totals().gas_rebound + boundaries_.totals().sand_rebound;
+  if (scene_.has_air)
+    for (const double p : scene_.air->particles.plate_rebound) sum += std::isnan(p) ? 0.0 : p;
   for (const double p : scene_.gas.plate_rebound) sum += std::isnan(p) ? 0.0 : p;
   for (const double p : scene_.sand.plate_rebound) sum += std::isnan(p) ? 0.0 : p;
   return sum;

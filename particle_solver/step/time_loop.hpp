@@ -4,6 +4,7 @@
 //   one sand step dt                                                          one gas sub-step h = dt / n
 //   sand_integrate (half kick) -> surface_contact -> boundaries -> n x [ detonate -> gas_collide -> gas_drift ]
 //                  -> sand_pairs -> sand_integrate (half kick)
+// Air, where there is some, moves once a step, after boundaries: air_collide -> air_drift -> air_boundaries.
 //
 // A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
 // in the list: no test, no array, no timer row. Stage name = file name = timer name = row of the report.
@@ -15,6 +16,9 @@
 #include "coupling/base/stage_timer.hpp"
 #include "particle_solver/ledger/particle_ledger.hpp"
 #include "particle_solver/scene/scene.hpp"
+#include "particle_solver/step/air_boundaries.hpp"
+#include "particle_solver/step/air_collide.hpp"
+#include "particle_solver/step/air_drift.hpp"
 #include "particle_solver/step/boundaries.hpp"
 #include "particle_solver/step/gas_collide.hpp"
 #include "particle_solver/step/surface_contact.hpp"
@@ -25,6 +29,7 @@ namespace standoff::particles {
 struct LoopTotals {
   long steps = 0, sub_steps = 0, particle_steps = 0;
   double impulse_gas = 0.0, impulse_sand = 0.0;  // N s on the plate
+  double impulse_air = 0.0;                      // N s, net of the ambient pressure on the rear
   double incoming = 0.0;                         // kg m/s at first contact with the plate
   double contact_loss = 0.0;                     // J, grains on plate and cover
   double contact_elastic = 0.0;                  // J now, with the soil's own law at the plate
@@ -79,10 +84,12 @@ class TimeLoop {
  private:
   using Stage = std::function<void(double time, double h)>;
   void compose();
+  void compose_air();
   void add(std::vector<Stage>& list, const std::string& name, Stage body);
   int timer_row(const std::string& name);
   void step(double time, double dt, long gas_steps);
   double sand_step_limit() const;
+  double outer_step_limit() const;
   long gas_steps(double dt);
 
   Scene& scene_;
@@ -91,6 +98,9 @@ class TimeLoop {
   std::unique_ptr<GasCollide> gas_;
   std::unique_ptr<SandPairs> pairs_;
   std::unique_ptr<SurfaceContact> contact_;
+  std::unique_ptr<AirCollide> air_collide_;
+  std::unique_ptr<AirDrift> air_drift_;
+  std::unique_ptr<AirBoundaries> air_boundaries_;
   Boundaries boundaries_;
   BoundaryBooks books_;
   LoopTotals totals_;

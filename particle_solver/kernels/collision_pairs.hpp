@@ -1,0 +1,48 @@
+#pragma once
+// Which particles of a cell collide in a step, in a gas whose particles are points with a cross-section: direct
+// simulation Monte Carlo. Candidates are drawn without looking at distances, and taken in proportion to their relative
+// speed:
+//   candidates among N      N (N - 1) / 2 * sigma g_max dt / V
+//   candidates N with M     N M * sigma g_max dt / V
+//   accepted                with probability g / g_max
+//   line of centres         as hard spheres meet: cos^2 of the angle to the relative velocity uniform in (0, 1)
+// Source: Bird, Molecular Gas Dynamics (1994), eqs. 11.3 and 11.5 (no time counter), 2.16 (hard spheres). The impulse
+// along the line of centres is that of larsen_borgnakke.hpp, so products and air relax by one law.
+// Deviation: g_max is a bound from the velocities in the cell, not a stored running maximum: no state, no bias.
+//
+// Symbols: sigma [m2], g [m/s], dt [s], V [m3]. Valid while a particle collides and moves less than a cell in dt;
+// larger steps blur gradients over the way travelled, energy and momentum stay exact.
+#include <cmath>
+
+#include "coupling/base/counter_random.hpp"
+#include "coupling/base/vec3.hpp"
+
+namespace standoff::particles {
+
+inline double candidates_among(double count, double swept_volume, double cell_volume) {
+  return 0.5 * count * (count - 1.0) * swept_volume / cell_volume;
+}
+inline double candidates_between(double count, double others, double swept_volume, double cell_volume) {
+  return count * others * swept_volume / cell_volume;
+}
+
+/// Unit vector n with closing . n < 0 for two hard spheres that meet with relative velocity `closing` = v_j - v_i != 0.
+inline Vec3 random_line_of_centres(const Vec3& closing, CounterRandom& random) {
+  const Vec3 along = closing / -norm(closing);
+  const double cosine = std::sqrt(random.uniform()), sine = std::sqrt(1.0 - cosine * cosine);
+  const double angle = 6.283185307179586 * random.uniform();
+  // Any two directions across: the smaller component of `along` never degenerates.
+  const Vec3 other = std::abs(along.x) < 0.6 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};
+  Vec3 a = cross(along, other);
+  a *= 1.0 / norm(a);
+  const Vec3 b = cross(along, a);
+  return along * cosine + a * (sine * std::cos(angle)) + b * (sine * std::sin(angle));
+}
+
+/// Index in [0, count) from a uniform number.
+inline std::size_t pick(std::size_t count, CounterRandom& random) {
+  const auto k = static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
+  return k < count ? k : count - 1;
+}
+
+}  // namespace standoff::particles

@@ -1,0 +1,16 @@
+#pragma once
+// Ambient air of a scene: how it is resolved, and where it stands at the start (everywhere, asleep).
+#include <memory>
+
+#include "coupling/case/case_spec.hpp"
+#include "particle_solver/state/air.hpp"
+
+namespace standoff::particles {
+
+/// Box that air.particles counts for [Borvik 2011, sec. 3.2], m3.
+inline constexpr double nominal_air_volume = 0.9;
+
+/// Air around the scene, all asleep. `internal_energy` off: gamma 5/3 at the same pressure.
+std::unique_ptr<Air> build_air(const CaseSpec& spec);
+
+}  // namespace standoff::particles

@@ -1,0 +1,163 @@
+#include "particle_solver/step/air_drift.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "particle_solver/kernels/gas_impact_time.hpp"
+#include "particle_solver/kernels/gas_pair_impulse.hpp"
+
+namespace standoff::particles {
+namespace {
+
+// A particle caught between a grain and the plate may bounce many times; what is left of its step is then dropped, and
+// it flies on from where it is in the next one.
+constexpr int most_bounces = 200;
+
+/// What an elastic mirror in x = 0 and y = 0 makes of a finished flight.
+Vec3 fold(Vec3& position, Vec3& velocity) {
+  const Vec3 before = velocity;
+  if (position.x < 0.0) position.x = -position.x, velocity.x = -velocity.x;
+  if (position.y < 0.0) position.y = -position.y, velocity.y = -velocity.y;
+  return before - velocity;
+}
+
+}  // namespace
+
+struct AirDrift::Hit {
+  double time = no_impact;
+  enum { none, mirror_x, mirror_y, grain, sheet } what = none;
+  std::uint32_t grain_index = 0;
+  SheetPoint where;
+};
+
+void AirDrift::sort_grains(const SandState& sand, double radius, double dt) {
+  double fastest = 0.0, largest = 0.0;
+  middle_.resize(sand.size());
+  for (std::size_t k = 0; k < sand.size(); ++k) {
+    middle_[k] = sand.position[k] + sand.velocity[k] * (0.5 * dt);
+    fastest = std::max(fastest, squared_norm(sand.velocity[k]));
+    largest = std::max(largest, sand.radius_of(k));
+  }
+  // Room for grains that air pushes aside within the step: a grain outweighs many of them.
+  grain_reach_ = radius + largest + 0.55 * dt * std::sqrt(fastest);
+  grains_.shape(sand.size(), grain_reach_);
+  grains_.sort(middle_);
+}
+
+void AirDrift::list_those_near(const Air& air, const SandState* sand, const SurfaceSheet* sheet, double dt) {
+  const GasState& gas = air.particles;
+  holds_grains_.assign(sand != nullptr ? air.cells.count() : 0, 0);
+  if (sand != nullptr) {
+    const Vec3 w = air.cells.width();
+    for (const Vec3& x : middle_)
+      for (const double dx : {-w.x, 0.0, w.x})
+        for (const double dy : {-w.y, 0.0, w.y})
+          for (const double dz : {-w.z, 0.0, w.z})
+            if (const auto c = air.cells.cell_of(x + Vec3{dx, dy, dz}); c != AirCells::outside_cell)
+              holds_grains_[c] = 1;
+  }
+  const double top = sheet != nullptr ? sheet->highest(dt) + gas.radius : 0.0;
+  near_.resize(gas.size());
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::size_t i = 0; i < gas.size(); ++i) {
+    const Vec3 &x = gas.position[i], &v = gas.velocity[i];
+    bool near = sheet != nullptr && x.z + std::min(0.0, v.z * dt) <= top;
+    if (!near && sand != nullptr) {
+      const auto cell = air.cells.cell_of(x);
+      near = cell == AirCells::outside_cell || holds_grains_[cell] != 0;
+    }
+    near_[i] = near ? 1 : 0;
+  }
+}
+
+AirDrift::Hit AirDrift::earliest(const GasState& gas, std::size_t i, double from, double dt, const SandState* sand,
+                                 const SurfaceSheet* sheet) const {
+  Hit hit;
+  const Vec3 &x = gas.position[i], &v = gas.velocity[i];
+  double until = dt;
+  if (sand != nullptr && sand->size() > 0) {
+    const double half = 0.5 * (dt - from) * norm(v);
+    grains_.visit<false>(x + v * (0.5 * (from + dt)), grain_reach_ + half, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t q = begin; q < end; ++q) {
+        const std::uint32_t k = grains_.order()[q];
+        const double time =
+            impact_time(sand->position[k] - x, sand->velocity[k] - v, gas.radius + sand->radius_of(k), from, until);
+        if (!(time < hit.time)) continue;
+        hit.time = until = time, hit.what = Hit::grain, hit.grain_index = k;
+      }
+    });
+  }
+  if (mirrors_) {
+    const double at_x = plane_impact_time(x.x, v.x, 0.0, from, until),
+                 at_y = plane_impact_time(x.y, v.y, 0.0, from, until);
+    if (at_x < hit.time) hit.time = until = at_x, hit.what = Hit::mirror_x;
+    if (at_y < hit.time) hit.time = until = at_y, hit.what = Hit::mirror_y;
+  }
+  SheetPoint where;
+  double time = no_impact;
+  if (sheet != nullptr && sheet->first_hit(x, v, gas.radius, from, until, time, where) && time < hit.time)
+    hit = {time, Hit::sheet, 0, where};
+  return hit;
+}
+
+void AirDrift::fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet, double dt, AirDriftCounts& counts) {
+  GasState& gas = air.particles;
+  Vec3 &x = gas.position[i], &v = gas.velocity[i];
+  double from = 0.0;
+  for (int bounce = 0; bounce < most_bounces; ++bounce) {
+    const Hit hit = earliest(gas, i, from, dt, sand, sheet);
+    if (hit.what == Hit::none) break;
+    from = hit.time;
+    const Vec3 old = v;
+    double speed_of_other = 0.0;
+    if (hit.what == Hit::mirror_x || hit.what == Hit::mirror_y) {
+      const Vec3 change = hit.what == Hit::mirror_x ? Vec3{-2.0 * v.x, 0.0, 0.0} : Vec3{0.0, -2.0 * v.y, 0.0};
+      change_velocity(x, v, change, from);
+      counts.mirror_impulse -= change * gas.mass;
+      continue;
+    }
+    if (hit.what == Hit::grain) {
+      const std::uint32_t k = hit.grain_index;
+      const double inverse = 1.0 / gas.mass, inverse_grain = 1.0 / sand->mass_of(k);
+      const Vec3 closing = sand->velocity[k] - v;
+      const Vec3 n = line_of_centres(sand->position[k] - x + closing * from, closing);
+      const double before = dot(closing, n);
+      const double impulse = pair_impulse(reduced_mass(inverse, inverse_grain), before, -before);
+      speed_of_other = norm(sand->velocity[k]);
+      change_velocity(x, v, n * (-impulse * inverse), from);
+      change_velocity(sand->position[k], sand->velocity[k], n * (impulse * inverse_grain), from);
+      ++counts.sand_hits;
+    } else {
+      speed_of_other = norm(hit.where.velocity);
+      const Impact impact = sheet->collide(hit.where, gas.mass, 1.0, 0.0, from, v);
+      x -= (v - old) * from;
+      ++counts.sheet_hits;
+      if (!hit.where.rigid) {
+        if (std::isnan(gas.plate_rebound[i])) counts.plate_incoming -= gas.mass * old.z;
+        gas.plate_rebound[i] = gas.mass * v.z;
+        counts.plate_impulse -= impact.impulse.z;
+      }
+    }
+    if (speed_of_other > air.still_speed) gas.disturbed[i] = 1;
+  }
+  x += v * dt;
+}
+
+AirDriftCounts AirDrift::run(Air& air, SandState* sand, SurfaceSheet* sheet, double dt) {
+  AirDriftCounts counts;
+  GasState& gas = air.particles;
+  if (gas.size() == 0) return counts;
+  if (sand != nullptr) sort_grains(*sand, gas.radius, dt);
+  list_those_near(air, sand, sheet, dt);
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::size_t i = 0; i < gas.size(); ++i)
+    if (near_[i] == 0) gas.position[i] += gas.velocity[i] * dt;
+  for (std::size_t i = 0; i < gas.size(); ++i)
+    if (near_[i] != 0) fly(air, i, sand, sheet, dt, counts);
+  if (mirrors_)
+    for (std::size_t i = 0; i < gas.size(); ++i)
+      counts.mirror_impulse += fold(gas.position[i], gas.velocity[i]) * gas.mass;
+  return counts;
+}
+
+}  // namespace standoff::particles
