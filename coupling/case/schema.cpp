@@ -149,7 +149,7 @@ constexpr KeyEntry entries[] = {
      "Ratio of specific heats of air.",
      "[Borvik 2011, sec. 3.2]"},
     {"air.particles", count, quantity::none, count_of_particles, "", "500000",
-     "Air particles in a box of 0.9 m3; a smaller box keeps the number density."},
+     "Air particles in a box of 0.9 m3; another box keeps the number density. Air that stands still costs nothing."},
 
     // ---- where particles live ----
     {"domain.size", quantities, quantity::length, positive, "", "",

@@ -8,6 +8,7 @@ struct CostConstants {
   // particles
   double gas_particle_step = 300e-9;  // s: one gas particle through one sub-step, search and rounds included
   double gas_beside_sand = 110e-9;    // s more where grains are searched too
+  double air_particle_step = 120e-9;  // s: one air particle that is awake through one window
   double grain_step = 180e-9;         // s: one grain through one step without friction (about 4 contacts a grain)
   double grain_friction = 80e-9;      // s more with tangential history
   double grain_damping = 5e-9;        // s more with a dashpot

@@ -37,7 +37,7 @@ std::string counts_text(const CostPrediction& p) {
   };
   row("charge particles", p.charge_particles, p.gas_step, p.gas_steps);
   row("sand particles", p.sand_particles, p.sand_step, p.sand_steps);
-  row("air particles", p.air_particles, 0.0, 0.0);
+  row("air particles", p.air_particles, 0.0, p.air_steps);
   row("elements", p.elements, p.structure_step, p.structure_steps);
   return "what is computed (steps: stable at the start, and how many in all)\n" +
          table_text(rows, {false, true, true, true, true});
@@ -45,6 +45,7 @@ std::string counts_text(const CostPrediction& p) {
 
 std::string price_text(const CostPrediction& p) {
   Rows rows{{"gas", fmt::format("{:.1f} s", p.gas_s), share(p.gas_s, p)},
+            {"air", fmt::format("{:.1f} s", p.air_s), share(p.air_s, p)},
             {"sand", fmt::format("{:.1f} s", p.sand_s), share(p.sand_s, p)},
             {"packing of the cell", fmt::format("{:.1f} s", p.packing_s), share(p.packing_s, p)},
             {"structure", fmt::format("{:.1f} s", p.structure_s), share(p.structure_s, p)},

@@ -149,9 +149,34 @@ void plan_sand(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) 
   p.particle_bytes += p.simulated(soil.particles) * grain_bytes;
 }
 
+/// Air is awake inside the blast wave: Sedov's strong point explosion for gamma = 1.4, R = 1.03 (E t^2 / rho)^(1/5)
+/// [Sedov, Similarity and Dimensional Methods in Mechanics (1959), ch. IV.11], never faster than what drives it.
+void plan_air(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+  if (!spec.effect("air") || !spec.charge.present) return;
+  const Explosive& e = spec.charge.explosive;
+  const Vec3 box = spec.domain.upper - spec.domain.lower;
+  const double energy = spec.charge.mass / e.density * e.energy, volume = box.x * box.y * spec.domain.upper.z;
+  const double driver =
+      bubble_speed(spec, std::sqrt(3.0 * (e.gamma - 1.0) * e.energy / e.density), e.energy / e.density);
+  const double outer = std::max(spec.charge.radius, spec.soil.kind == SoilKind::none ? 0.0 : spec.soil.outer_radius);
+  const double density = static_cast<double>(spec.air.particles) / 0.9;
+  p.air_particles = static_cast<long>(density * volume);
+  p.air_steps = p.windows;
+  constexpr int pieces = 100;
+  double sum = 0.0;
+  for (int i = 0; i < pieces; ++i) {
+    const double t = spec.run.until * (i + 0.5) / pieces;
+    const double radius = std::min(1.03 * std::pow(energy * t * t / spec.air.density, 0.2), outer + driver * t);
+    p.awake_air = density * std::min(volume, 4.0 / 3.0 * pi * cube(radius));
+    sum += p.awake_air / p.copies / pieces;
+  }
+  p.air_s = p.air_steps * sum * c.air_particle_step;
+  p.particle_bytes += p.awake_air / p.copies * gas_bytes;
+}
+
 /// The side that computes longer gets the cores; in the parallel scheme both compute at the same time.
 void choose_threads(const CaseSpec& spec, int cores, CostPrediction& p) {
-  const double particles = p.gas_s + p.sand_s, structure = p.structure_s;
+  const double particles = p.air_s + p.gas_s + p.sand_s, structure = p.structure_s;
   if (cores < 2 || spec.coupling.scheme == Scheme::serial || particles + structure <= 0.0) {
     p.particle_threads = p.structure_threads = cores;
     return;
@@ -167,11 +192,12 @@ void choose_threads(const CaseSpec& spec, int cores, CostPrediction& p) {
 }
 
 void add_wall(const CaseSpec& spec, int cores, const CostConstants& c, CostPrediction& p) {
-  const double particles = (p.gas_s + p.sand_s) / speedup(p.particle_threads, c);
+  const double particles = (p.air_s + p.gas_s + p.sand_s) / speedup(p.particle_threads, c);
   const double structure = p.structure_s / speedup(p.structure_threads, c);
   const bool at_once = spec.coupling.scheme == Scheme::parallel && cores > 1;
   double loading = particles + structure;
-  if (at_once) loading = std::max({particles, structure, (p.gas_s + p.sand_s + p.structure_s) / speedup(cores, c)});
+  if (at_once)
+    loading = std::max({particles, structure, (p.air_s + p.gas_s + p.sand_s + p.structure_s) / speedup(cores, c)});
   p.wall_s = c.start_up + p.packing_s + loading + p.exchange_s + p.relaxation_s / speedup(p.structure_threads, c);
 }
 
@@ -183,6 +209,7 @@ EffectPrice price_of(const EffectDecision& effect, const CaseSpec& spec, const C
   const double grains = p.simulated(p.sand_particles), gas = p.simulated(p.charge_particles);
   const double points = gauss_points * p.simulated(p.elements);
   const std::string& name = effect.name;
+  if (name == "air") price.bytes = p.awake_air / p.copies * gas_bytes, price.seconds = p.air_s;
   if (name == "friction")
     price.bytes = grains * history_bytes, price.seconds = p.sand_steps * grains * c.grain_friction;
   if (name == "damping") price.seconds = p.sand_steps * grains * c.grain_damping;
@@ -203,10 +230,10 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
                             const CostConstants& constants) {
   CostPrediction p;
   p.copies = spec.copies();
-  p.air_particles = spec.air.on ? spec.air.particles : 0;
   plan_structure(spec, constants, p);
   plan_gas(spec, constants, p);
   plan_sand(spec, constants, p);
+  plan_air(spec, constants, p);
   choose_threads(spec, cores, p);
   if (particle_threads > 0) p.particle_threads = particle_threads;
   if (structure_threads > 0) p.structure_threads = structure_threads;

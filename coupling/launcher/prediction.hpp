@@ -33,7 +33,8 @@ struct CostPrediction {
   double gas_step = 0.0, sand_step = 0.0, structure_step = 0.0;                    // s, at the start; 0 = absent
   double gas_steps = 0.0, sand_steps = 0.0, structure_steps = 0.0;
   double window = 0.0, windows = 0.0;
-  double gas_s = 0.0, sand_s = 0.0, packing_s = 0.0, structure_s = 0.0, relaxation_s = 0.0,
+  double air_steps = 0.0, awake_air = 0.0;  // steps, and full-domain particles awake at the end
+  double air_s = 0.0, gas_s = 0.0, sand_s = 0.0, packing_s = 0.0, structure_s = 0.0, relaxation_s = 0.0,
          exchange_s = 0.0;  // one core each
   double wall_s = 0.0;
   double particle_bytes = 0.0, structure_bytes = 0.0;
@@ -41,7 +42,7 @@ struct CostPrediction {
   std::vector<EffectPrice> effects;
 
   double simulated(long full) const { return static_cast<double>(full) / copies; }
-  double core_s() const { return gas_s + sand_s + packing_s + structure_s + relaxation_s + exchange_s; }
+  double core_s() const { return air_s + gas_s + sand_s + packing_s + structure_s + relaxation_s + exchange_s; }
 };
 
 /// threads = 0: chosen from `cores` (the side that computes longer gets more; both compute at once in the parallel

@@ -27,7 +27,7 @@ ParticleFiles::ParticleFiles(const std::string& folder) : folder_(folder) {
   if (!folder.empty()) series_.emplace(folder + "/particles", "particles", "vtp");
 }
 
-void ParticleFiles::frame(double time, const GasState& gas, const SandState& sand) {
+void ParticleFiles::frame(double time, const GasState& gas, const SandState& sand, const GasState* air) {
   if (!series_) return;
   std::vector<Vec3> position(gas.position), velocity(gas.velocity);
   position.insert(position.end(), sand.position.begin(), sand.position.end());
@@ -37,6 +37,11 @@ void ParticleFiles::frame(double time, const GasState& gas, const SandState& san
   std::vector<double> radius(gas.size(), gas.radius), medium(gas.size(), 0.0);
   for (std::size_t i = 0; i < sand.size(); ++i) radius.push_back(sand.radius_of(i));
   medium.resize(position.size(), 1.0);
+  if (air != nullptr) {
+    position.insert(position.end(), air->position.begin(), air->position.end());
+    velocity.insert(velocity.end(), air->velocity.begin(), air->velocity.end());
+    radius.resize(position.size(), air->radius), medium.resize(position.size(), 2.0);
+  }
   series_->add(time, vtp_text(position, {vtk_array("velocity_m_per_s", velocity), vtk_array("radius_m", radius),
                                          vtk_array("medium", medium)}));
 }

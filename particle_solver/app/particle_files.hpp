@@ -14,7 +14,7 @@ class ParticleFiles {
   /// An empty folder writes nothing.
   explicit ParticleFiles(const std::string& folder);
   /// Frame of the simulated particles: velocity, radius, medium (0 gas, 1 sand).
-  void frame(double time, const GasState& gas, const SandState& sand);
+  void frame(double time, const GasState& gas, const SandState& sand, const GasState* air);
   /// Specific impulse of every plate node, full plate: mirrored if a quarter was simulated.
   void impulse_map(const SurfaceSheet& sheet, bool quarter) const;
   template <class Archive>

@@ -49,7 +49,8 @@ void run_particles(const CaseSpec& spec, const ParticleRunOptions& options, Part
     const double slack = 0.5 * clock.window;
     books.observe(time);
     if (row.due(time, slack)) link.sample(time, books.sample(time));
-    if (frame.due(time, slack)) files.frame(time, scene.gas, scene.sand);
+    if (frame.due(time, slack))
+      files.frame(time, scene.gas, scene.sand, scene.has_air ? &scene.air->particles : nullptr);
     if (window == clock.windows || since_progress.seconds() > seconds_between_progress) {
       link.progress(books.progress(time, window, clock.windows));
       since_progress = {};

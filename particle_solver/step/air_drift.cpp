@@ -46,15 +46,10 @@ void AirDrift::sort_grains(const SandState& sand, double radius, double dt) {
 
 void AirDrift::list_those_near(const Air& air, const SandState* sand, const SurfaceSheet* sheet, double dt) {
   const GasState& gas = air.particles;
-  holds_grains_.assign(sand != nullptr ? air.cells.count() : 0, 0);
   if (sand != nullptr) {
-    const Vec3 w = air.cells.width();
-    for (const Vec3& x : middle_)
-      for (const double dx : {-w.x, 0.0, w.x})
-        for (const double dy : {-w.y, 0.0, w.y})
-          for (const double dz : {-w.z, 0.0, w.z})
-            if (const auto c = air.cells.cell_of(x + Vec3{dx, dy, dz}); c != AirCells::outside_cell)
-              holds_grains_[c] = 1;
+    double fastest = 0.0;
+    for (const Vec3& v : gas.velocity) fastest = std::max(fastest, squared_norm(v));
+    near_grains_.mark(middle_, grain_reach_ + 0.5 * dt * std::sqrt(fastest));
   }
   const double top = sheet != nullptr ? sheet->highest(dt) + gas.radius : 0.0;
   near_.resize(gas.size());
@@ -62,10 +57,7 @@ void AirDrift::list_those_near(const Air& air, const SandState* sand, const Surf
   for (std::size_t i = 0; i < gas.size(); ++i) {
     const Vec3 &x = gas.position[i], &v = gas.velocity[i];
     bool near = sheet != nullptr && x.z + std::min(0.0, v.z * dt) <= top;
-    if (!near && sand != nullptr) {
-      const auto cell = air.cells.cell_of(x);
-      near = cell == AirCells::outside_cell || holds_grains_[cell] != 0;
-    }
+    if (!near && sand != nullptr) near = near_grains_.near(x + v * (0.5 * dt));
     near_[i] = near ? 1 : 0;
   }
 }
@@ -125,7 +117,7 @@ void AirDrift::fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet
       const double impulse = pair_impulse(reduced_mass(inverse, inverse_grain), before, -before);
       speed_of_other = norm(sand->velocity[k]);
       change_velocity(x, v, n * (-impulse * inverse), from);
-      change_velocity(sand->position[k], sand->velocity[k], n * (impulse * inverse_grain), from);
+      sand->velocity[k] += n * (impulse * inverse_grain);
       ++counts.sand_hits;
     } else {
       speed_of_other = norm(hit.where.velocity);

@@ -2,8 +2,11 @@
 // Stage air_drift: air flies on for a step. Straight where nothing is in the way; against mirrors, grains, plate and
 // cover hit by hit at the exact time, as gas does (gas_collide.hpp), but one particle after the other: the order of
 // hits of different particles on one grain or face within a step is not kept, which a dilute gas does not feel.
-// Momentum and energy are exact.
+// Momentum and energy are exact. Air flies once a window, which is several steps of grains: a grain takes its impulse
+// at once and is not shifted back as media.hpp would have it, because its neighbours would feel the shift as an
+// overlap.
 #include "particle_solver/search/gas_cell_grid.hpp"
+#include "particle_solver/search/gas_near_map.hpp"
 #include "particle_solver/state/air.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
 
@@ -34,9 +37,9 @@ class AirDrift {
   int threads_;
   std::vector<std::uint8_t> near_;  // of every particle
   GasCellGrid grains_;
+  GasNearMap near_grains_;
   std::vector<Vec3> middle_;
-  double grain_reach_ = 0.0;                // m, largest contact distance plus half the longest path of a grain
-  std::vector<std::uint8_t> holds_grains_;  // by cell of the air, one cell wider
+  double grain_reach_ = 0.0;  // m, largest contact distance plus half the longest path of a grain
 };
 
 }  // namespace standoff::particles

@@ -111,15 +111,15 @@ void TimeLoop::compose_air() {
   SandState* sand = scene_.has_sand ? &scene_.sand : nullptr;
   GasState* gas = scene_.has_gas ? &scene_.gas : nullptr;
   const auto number = [this] { return static_cast<std::uint32_t>(totals_.steps); };
-  add(begin_step_, "air_collide",
+  add(begin_window_, "air_collide",
       [this, gas, number](double, double h) { air_collide_->run(*scene_.air, gas, h, number()); });
-  add(begin_step_, "air_drift", [this, sand](double, double h) {
+  add(begin_window_, "air_drift", [this, sand](double, double h) {
     const AirDriftCounts now = air_drift_->run(*scene_.air, sand, &scene_.sheet, h);
     totals_.impulse_air += now.plate_impulse;
     totals_.incoming += now.plate_incoming;
     books_.mirror_impulse += now.mirror_impulse;
   });
-  add(begin_step_, "air_boundaries", [this, gas, sand, number](double, double h) {
+  add(begin_window_, "air_boundaries", [this, gas, sand, number](double, double h) {
     totals_.impulse_air +=
         air_boundaries_->run(*scene_.air, gas, sand, &scene_.sheet, boundaries_, books_, h, number());
     totals_.particle_steps += static_cast<long>(scene_.air->particles.size());
@@ -155,23 +155,39 @@ void TimeLoop::step(double time, double dt, long gas_steps) {
   totals_.limited_by = gas_steps > 1 ? "gas_collide" : (scene_.has_sand ? "sand_pairs" : "window");
 }
 
-/// A sand step, or what the gas alone asks for. Beside air that moves once a step the gas takes up to eight sub-steps.
-double TimeLoop::outer_step_limit() const {
-  if (pairs_ && scene_.sand.size() > 0) return sand_step_limit();
-  return scene_.has_air && gas_ ? 8.0 * gas_step_ : stable_step();
+/// Nothing flies farther than a cell of the air before it meets what is there.
+double TimeLoop::air_step_limit() const {
+  const auto fastest = [](const GasState& gas) {
+    double square = 0.0;
+    for (const Vec3& v : gas.velocity) square = std::max(square, squared_norm(v));
+    return std::sqrt(square);
+  };
+  const Air& air = *scene_.air;
+  const double speed = std::max(fastest(scene_.gas), fastest(air.particles)), cell = air.cells.width().z;
+  return speed > 0.0 ? cell / speed : std::numeric_limits<double>::infinity();
 }
 
-void TimeLoop::advance(double begin, double window) {
-  gas_step_cap_ = window;
-  const double end = begin + window;
+void TimeLoop::fill(double begin, double span) {
+  const double end = begin + span;
   double time = begin;
-  while (end - time > 1e-9 * window) {
-    // Equal parts of what is left, so that no sliver remains.
-    const double limit = outer_step_limit();
+  while (end - time > 1e-9 * span) {
+    // A sand step, or what the gas alone asks for; equal parts of what is left, so that no sliver remains.
+    const double limit = pairs_ && scene_.sand.size() > 0 ? sand_step_limit() : stable_step();
     const long count = steps_to_fill(end - time, limit);
     const double dt = (end - time) / static_cast<double>(count);
     step(time, dt, gas_steps(dt));
     time = count == 1 ? end : time + dt;
+  }
+}
+
+void TimeLoop::advance(double begin, double window) {
+  gas_step_cap_ = window;
+  const long parts = scene_.has_air ? steps_to_fill(window, air_step_limit()) : 1;
+  const double span = window / static_cast<double>(parts);
+  for (long part = 0; part < parts; ++part) {
+    const double from = begin + static_cast<double>(part) * span;
+    for (const Stage& stage : begin_window_) stage(from, span);
+    fill(from, span);
   }
 }
 

@@ -4,7 +4,7 @@
 //   one sand step dt                                                          one gas sub-step h = dt / n
 //   sand_integrate (half kick) -> surface_contact -> boundaries -> n x [ detonate -> gas_collide -> gas_drift ]
 //                  -> sand_pairs -> sand_integrate (half kick)
-// Air, where there is some, moves once a step, after boundaries: air_collide -> air_drift -> air_boundaries.
+// Air, where there is some, moves at the beginning of a window: air_collide -> air_drift -> air_boundaries.
 //
 // A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
 // in the list: no test, no array, no timer row. Stage name = file name = timer name = row of the report.
@@ -89,12 +89,13 @@ class TimeLoop {
   int timer_row(const std::string& name);
   void step(double time, double dt, long gas_steps);
   double sand_step_limit() const;
-  double outer_step_limit() const;
+  double air_step_limit() const;
+  void fill(double begin, double span);
   long gas_steps(double dt);
 
   Scene& scene_;
   StageTimers timers_;
-  std::vector<Stage> begin_step_, sub_step_, end_step_;
+  std::vector<Stage> begin_window_, begin_step_, sub_step_, end_step_;
   std::unique_ptr<GasCollide> gas_;
   std::unique_ptr<SandPairs> pairs_;
   std::unique_ptr<SurfaceContact> contact_;
