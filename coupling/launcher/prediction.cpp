@@ -152,7 +152,7 @@ void plan_sand(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) 
 /// Air is awake inside the blast wave: Sedov's strong point explosion for gamma = 1.4, R = 1.03 (E t^2 / rho)^(1/5)
 /// [Sedov, Similarity and Dimensional Methods in Mechanics (1959), ch. IV.11], never faster than what drives it.
 void plan_air(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
-  if (!spec.effect("air") || !spec.charge.present) return;
+  if (!spec.air.on || !spec.charge.present) return;
   const Explosive& e = spec.charge.explosive;
   const Vec3 box = spec.domain.upper - spec.domain.lower;
   const double energy = spec.charge.mass / e.density * e.energy, volume = box.x * box.y * spec.domain.upper.z;

@@ -21,6 +21,10 @@ struct Air {
   Vec3 body_centre;          // m; no air inside the body of charge and sand
   double body_radius = 0.0;  // m
   double woken = 0.0;        // particles filled in so far
+  template <class Archive>
+  void archive(Archive& a) {
+    a(cells, particles, next_id, woken);
+  }
 };
 
 }  // namespace standoff::particles

@@ -32,7 +32,7 @@ struct GasState {
   template <class Archive>
   void archive(Archive& a) {
     a(mass, radius, gamma, position, velocity, internal_energy, release_time, released, latent_impulse, plate_rebound,
-      id);
+      disturbed, id);
   }
 };
 

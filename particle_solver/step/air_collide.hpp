@@ -11,6 +11,10 @@ class AirCollide {
   /// `products` may be null; `step` numbers the call.
   void run(Air& air, GasState* products, double dt, std::uint32_t step);
   long collisions() const { return collisions_; }  // since the start
+  template <class Archive>
+  void archive(Archive& a) {
+    a(collisions_);
+  }
 
  private:
   void collide_cell(Air& air, GasState* products, std::uint32_t cell, double dt, std::uint32_t step, long& done) const;

@@ -39,7 +39,8 @@ struct LoopTotals {
   std::string limited_by;  // what limited it
   template <class Archive>
   void archive(Archive& a) {
-    a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, incoming, contact_loss, contact_elastic);
+    a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, impulse_air, incoming, contact_loss,
+      contact_elastic);
     a(max_penetration_over_radius, deferred_hits, step, limited_by);
   }
 };
@@ -74,6 +75,7 @@ class TimeLoop {
   void archive(Archive& a) {
     a(scene_.gas, scene_.sand, scene_.sheet, boundaries_, books_, totals_, last_gas_, gas_step_, gas_step_cap_,
       timers_);
+    if (air_collide_) a(*scene_.air, *air_collide_);
     if (!pairs_) return;
     SandPairsMemory memory;
     if constexpr (!Archive::reading) memory = pairs_->memory(scene_.sand);

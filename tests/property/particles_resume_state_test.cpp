@@ -12,7 +12,7 @@ namespace standoff::particles {
 namespace {
 
 /// A charge in a shell of sand whose outside touches the plate: hits on the plate from the first window on.
-CaseSpec buried_charge(const std::string& soil) {
+CaseSpec buried_charge(const std::string& soil, const char* air = "off") {
   standoff::test::CaseFolder folder;
   folder.write("case.toml", R"([charge]
 explosive = "c4"
@@ -26,7 +26,8 @@ size = ["406 mm", "406 mm", "3.4 mm"]
 stand_off = "76.2 mm"
 until = "0.3 ms"
 [soil]
-)" + soil);
+)" + soil + "[air]\nmode = \"" + air +
+                                "\"\n");
   const CaseRead read = folder.read();
   EXPECT_TRUE(read.errors.empty()) << standoff::test::all_errors(read);
   return read.spec;
@@ -113,6 +114,14 @@ TEST(ResumedParticles, StoppedWithSlidingContacts_GoOnWithTheSameBits) {
   EXPECT_GT(probe.loop.sand_books().friction_loss, 0.0);
   EXPECT_GT(probe.loop.sand_books().elastic_energy, 0.0);
   expect_same_bits(spec, 20, 40, 2);
+}
+
+TEST(ResumedParticles, AwakeAirBesideStillAir_GoesOnWithTheSameBits) {
+  const CaseSpec spec = buried_charge(dry_soil, "on");
+  Side probe(spec, 1);
+  probe.run(0, 20);
+  EXPECT_GT(probe.scene.air->particles.size(), 100u);
+  expect_same_bits(spec, 20, 30, 2);
 }
 
 TEST(ResumedParticles, WetSandWithUnequalGrains_GoesOnWithTheSameBits) {
