@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "coupling/case/structural_models.hpp"
+
 namespace standoff {
 namespace {
 
@@ -172,7 +174,7 @@ constexpr KeyEntry entries[] = {
      "Coulomb coefficient of a grain on the plate; \"soil\" takes soil.friction."},
 
     // ---- plate ----
-    {"plate.model", choice, quantity::none, any, "plate_hex64|rigid_plate|material_point", "plate_hex64",
+    {"plate.model", choice, quantity::none, any, structural_model_words, "plate_hex64",
      "Structural model by name; see `standoff models`.", "[Borvik 2011, sec. 3.4]"},
     {"plate.size", quantities, quantity::length, positive, "", "", "Exposed width in x, width in y, thickness.",
      "[Borvik 2011, sec. 2]: 406 mm, 406 mm, 3.4 mm"},

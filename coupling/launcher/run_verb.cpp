@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "coupling/base/stop.hpp"
+#include "coupling/case/structural_models.hpp"
 #include "coupling/launcher/child_process.hpp"
 #include "coupling/launcher/point_run.hpp"
 #include "coupling/launcher/run_folder.hpp"
@@ -20,7 +21,7 @@ int run_verb(const RunOptions& options) {
   for (const char* name : {"standoff-broker", "standoff-structure", "standoff-particles"}) program_path(name);
   const std::string folder =
       options.out.empty() ? new_run_folder("runs", read.spec.name, read.spec.level) : named_run_folder(options.out);
-  if (read.spec.plate.model == "material_point") return run_point(options, read, folder);
+  if (read.spec.plate.model == material_point_model) return run_point(options, read, folder);
   RunSession session(options, read, folder);
   return session.run();
 }

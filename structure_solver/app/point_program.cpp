@@ -11,7 +11,7 @@
 #include "coupling/output/atomic_file.hpp"
 #include "coupling/output/csv_table.hpp"
 #include "structure_solver/materials/point_driver.hpp"
-#include "structure_solver/models/plate_solid.hpp"
+#include "structure_solver/models/plate_hex64/plate_solid.hpp"
 
 namespace standoff::structure {
 namespace {

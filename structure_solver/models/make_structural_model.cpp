@@ -1,7 +1,7 @@
 #include "coupling/base/stop.hpp"
 #include "coupling/case/near_word.hpp"
-#include "structure_solver/models/plate_hex64.hpp"
-#include "structure_solver/models/rigid_plate.hpp"
+#include "structure_solver/models/plate_hex64/plate_hex64.hpp"
+#include "structure_solver/models/rigid_plate/rigid_plate.hpp"
 
 namespace standoff::structure {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "structure_solver/models/plate_hex64.hpp"
+#include "structure_solver/models/plate_hex64/plate_hex64.hpp"
 
 namespace standoff::structure::testing {
 

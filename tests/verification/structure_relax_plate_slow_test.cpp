@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "structure_solver/models/plate_hex64.hpp"
+#include "structure_solver/models/plate_hex64/plate_hex64.hpp"
 #include "structure_solver/relaxation/relaxation.hpp"
 
 namespace standoff::structure {

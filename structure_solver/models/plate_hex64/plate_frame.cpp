@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "structure_solver/mesh/vtk_hexahedron.hpp"
-#include "structure_solver/models/plate_probes.hpp"
+#include "structure_solver/models/plate_hex64/plate_probes.hpp"
 
 namespace standoff::structure {
 namespace {

@@ -1,4 +1,4 @@
-#include "structure_solver/models/plate_probes.hpp"
+#include "structure_solver/models/plate_hex64/plate_probes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "structure_solver/models/plate_solid.hpp"
+#include "structure_solver/models/plate_hex64/plate_solid.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

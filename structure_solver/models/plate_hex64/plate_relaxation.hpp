@@ -1,6 +1,6 @@
 #pragma once
 // The plate as relaxation sees it: free degrees of freedom only, trial forces that leave the history alone.
-#include "structure_solver/models/plate_probes.hpp"
+#include "structure_solver/models/plate_hex64/plate_probes.hpp"
 #include "structure_solver/relaxation/relaxation_problem.hpp"
 
 namespace standoff::structure {

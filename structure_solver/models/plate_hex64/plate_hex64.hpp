@@ -1,6 +1,6 @@
 #pragma once
 // Model "plate_hex64": a plate of cubic 64-node hexahedra, Johnson-Cook metal, explicit central differences.
-#include "structure_solver/models/plate_relaxation.hpp"
+#include "structure_solver/models/plate_hex64/plate_relaxation.hpp"
 #include "structure_solver/models/structural_model.hpp"
 
 namespace standoff::structure {

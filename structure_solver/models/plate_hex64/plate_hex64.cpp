@@ -1,4 +1,4 @@
-#include "structure_solver/models/plate_hex64.hpp"
+#include "structure_solver/models/plate_hex64/plate_hex64.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "structure_solver/models/rigid_plate.hpp"
+#include "structure_solver/models/rigid_plate/rigid_plate.hpp"
 
 #include <cmath>
 
-#include "structure_solver/models/plate_solid.hpp"
+#include "structure_solver/models/plate_hex64/plate_solid.hpp"
 
 namespace standoff::structure {
 

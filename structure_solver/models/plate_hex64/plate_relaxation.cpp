@@ -1,4 +1,4 @@
-#include "structure_solver/models/plate_relaxation.hpp"
+#include "structure_solver/models/plate_hex64/plate_relaxation.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 // What is read off a plate: deflections of the mid-surface, the centre line, extremes of the history, frames for
 // ParaView. Deflection is positive away from the charge (against z).
-#include "structure_solver/models/plate_solid.hpp"
+#include "structure_solver/models/plate_hex64/plate_solid.hpp"
 #include "structure_solver/models/structural_model.hpp"
 
 namespace standoff::structure {

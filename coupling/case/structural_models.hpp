@@ -1,0 +1,52 @@
+#pragma once
+// The structural models: the choices of plate.model and what `standoff models` tells of each. One row a model;
+// structure_solver/models/make_structural_model.cpp builds them by the same names, which a test compares.
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace standoff {
+
+/// What a model resolves and what it leaves out: the choice of a user, so both sides are told.
+struct StructuralModelEntry {
+  std::string_view name;
+  std::string_view doc, resolves, leaves_out;  // one sentence each
+  /// Seconds of the structure process in the windows of dry_150mm at level coarse, over those of plate_hex64.
+  double relative_cost;
+};
+
+inline constexpr StructuralModelEntry structural_models[] = {
+    {"plate_hex64", "Solid plate of cubic hexahedra with 64 nodes, explicit central differences.",
+     "large deflection, membrane and bending waves, stress through the thickness; Johnson-Cook hardening, rate, "
+     "heating and thermal expansion; the way to rest",
+     "fracture, slip under the clamp", 1.0},
+    {"rigid_plate", "The surface of the plate held still.", "the load: impulse and where it lands",
+     "all motion: no deflection, and the load is that on a plate that does not recede", 0.0},
+    {"material_point", "One point of the plate's material, without load: `standoff run` draws its flow curves.",
+     "hardening, rate and temperature as the plate's elements compute them",
+     "the plate, the charge and everything else", 0.0}};
+
+/// The one entry that is no surface before a charge: `standoff run` draws curves for it instead.
+inline constexpr std::string_view material_point_model = "material_point";
+
+namespace detail {
+constexpr std::size_t joined_size() {
+  std::size_t size = 0;
+  for (const StructuralModelEntry& model : structural_models) size += model.name.size() + 1;
+  return size - 1;
+}
+inline constexpr auto joined_names = [] {
+  std::array<char, joined_size()> text{};
+  std::size_t at = 0;
+  for (const StructuralModelEntry& model : structural_models) {
+    if (at > 0) text[at++] = '|';
+    for (const char letter : model.name) text[at++] = letter;
+  }
+  return text;
+}();
+}  // namespace detail
+
+/// "plate_hex64|rigid_plate|…", as the schema writes choices.
+inline constexpr std::string_view structural_model_words{detail::joined_names.data(), detail::joined_names.size()};
+
+}  // namespace standoff
