@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "particle_solver/kernels/gas_pair_impulse.hpp"
+#include "particle_solver/kernels/gas_release.hpp"
 #include "particle_solver/kernels/larsen_borgnakke.hpp"
 #include "particle_solver/step/gas_work.hpp"
 
@@ -167,8 +168,8 @@ void in_order_of_time(const Work& work, std::vector<Index>& bodies) {
   });
 }
 
-/// Bodies that meet unreleased gas: a wall that remembers what it took. In the order of time, because several may share
-/// a target and sums depend on their order.
+/// Bodies that meet unreleased gas: it answers as a cold particle at rest and keeps what it takes (kernels/
+/// gas_release.hpp). In the order of time, because several may share a target and sums depend on their order.
 void resolve_unreleased(Work& work, GasState& gas, std::vector<Index>& bodies, GasCollideCounts& counts) {
   in_order_of_time(work, bodies);
   for (const Index p : bodies) {
@@ -177,10 +178,14 @@ void resolve_unreleased(Work& work, GasState& gas, std::vector<Index>& bodies, G
     const double time = work.choice[p].time;
     const Vec3 gap = wrapped(work, target.start - body.start) - body.velocity * time;
     const Vec3 n = line_of_centres(gap, -body.velocity);
-    const Vec3 change = n * (-2.0 * dot(body.velocity, n));
-    change_velocity(body.start, body.velocity, change, time);
+    CounterRandom random = random_of_pair(work, body.id, target.id);
+    const Absorbed taken =
+        strike_waiting(work.mass, dot(body.velocity, n), gas.internal_energy[body.source], work.zeta, random);
+    change_velocity(body.start, body.velocity, n * (-taken.impulse / work.mass), time);
     body.since = time;
-    gas.latent_impulse[target.source] -= change * work.mass;
+    gas.internal_energy[body.source] = taken.energy_left;
+    gas.latent_impulse[target.source] += n * taken.impulse;
+    gas.internal_energy[target.source] += taken.energy;
     touch(work, p);
   }
   counts.unreleased_hits += static_cast<long>(bodies.size());
