@@ -62,6 +62,18 @@ std::string rest_text(const OrderedJson& record) {
   return text + "\n";
 }
 
+/// How the air was resolved. Molecules of still air meet every 0.07 um; here the mean free path is what the number of
+/// particles buys, and a shock is a few of them wide.
+std::string air_text(const OrderedJson& record) {
+  if (!record.contains("air")) return "";
+  const auto at = [&](const char* key) { return number_at(record, std::string("air.") + key).value_or(0.0); };
+  return fmt::format(
+      "air: mean free path {:.2g} mm in cells of {:.2g} mm, Knudsen number {:.2g} on the "
+      "stand-off, Z = p/nkT = {:.3g}; disturbed {:.2g} m3\n",
+      1e3 * at("mean_free_path_m"), 1e3 * at("cell_m"), at("knudsen_number"), at("compressibility_factor"),
+      at("awake_volume_m3"));
+}
+
 /// Who waited for whom, and what helps: a side is called idle when it waited for more than a quarter of its time.
 std::string balance_text(const OrderedJson& record) {
   const auto share = [&](const char* side) {
@@ -106,7 +118,7 @@ std::string result_table(const OrderedJson& record, const std::vector<ReferenceV
   const Rows rows = result_rows(record, references);
   std::string text;
   if (rows.size() > 1) text += table_text(rows, {false, true, true, true, false}) + "\n";
-  return text + conservation_text(record) + rest_text(record) + time_text(record);
+  return text + conservation_text(record) + rest_text(record) + air_text(record) + time_text(record);
 }
 
 std::vector<std::string> result_warnings(const OrderedJson& record) {

@@ -1,11 +1,11 @@
 #pragma once
 // A particle of explosive that the detonation has not reached stands still, but owns its velocity-to-be v0 and its
-// internal energy: E = m v0^2 / 2 + e. Its time of release is t = L / D, L its distance from the detonator [Borvik 2011,
-// sec. 3.2], whatever struck it. Until then it answers gas that strikes it as a cold particle of the same mass at rest,
-// by the law of every other hit (larsen_borgnakke.hpp), and keeps what it takes instead of moving: the impulse J in
-// store, the energy J^2 / 2m of the motion it is denied and its share of the internal energy in e. A wall that takes no
-// energy, the other reading of "stands still", drives the products back: 8 % more impulse on a rigid plate from `c4`,
-// 38 % from the literal constants, than from a charge that goes off at once.
+// internal energy: E = m v0^2 / 2 + e. Its time of release is t = L / D, L its distance from the detonator [Borvik
+// 2011, sec. 3.2], whatever struck it. Until then it answers gas that strikes it as a cold particle of the same mass at
+// rest, by the law of every other hit (larsen_borgnakke.hpp), and keeps what it takes instead of moving: the impulse J
+// in store, the energy J^2 / 2m of the motion it is denied and its share of the internal energy in e. A wall that takes
+// no energy, the other reading of "stands still", drives the products back: on a rigid plate 8 % more impulse from
+// `c4`, 38 % from the literal constants, than from a charge that goes off at once; this rule gives 4 and 13 %.
 //
 // When its time has come
 //   v = s (v0 + J / m),   e = E - m v^2 / 2,   s = min(1, sqrt(E / (m |v0 + J / m|^2 / 2))),

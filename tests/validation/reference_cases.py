@@ -30,13 +30,14 @@ def run(case, out, *options, exit_code=0):
     return json.loads((out / "run.json").read_text())
 
 
-def judge_books(record):
+def judge_books(record, interface=0.05):
     books = record["conservation"]
     # Exact in time-of-impact hits; velocity Verlet and central differences leave a few per mille.
     expect("energy error of the particles < 1 %", books["energy_error_particles"] < 0.01, f"{books['energy_error_particles']:.2e}")
     expect("energy error of the structure < 1 %", books["energy_error_structure"] < 0.01, f"{books['energy_error_structure']:.2e}")
-    # Not zero: the load of a window acts one window later.
-    expect("interface work error < 5 %", books["interface_work_error"] < 0.05, f"{books['interface_work_error']:.2e}")
+    # Not zero: the load of a window acts one window later. A plate at t after it started from rest is then faster by
+    # window / t, the work greater by twice that share at most.
+    expect(f"interface work error < {interface:.0%}", books["interface_work_error"] < interface, f"{books['interface_work_error']:.2e}")
     # Rounding only: impulses, not forces, cross the interface.
     expect("momentum error < 1e-9", books["momentum_error"] < 1e-9, f"{books['momentum_error']:.2e}")
     expect("at rest", record["relaxation"]["at_rest"] is True, record["relaxation"]["message"])
@@ -51,12 +52,25 @@ def judge_dry(folder):
     expect("dry: permanent deflection 24 to 46 mm", 0.024 < deflection < 0.046, f"{1e3 * deflection:.2f} mm")
 
 
-def judge_bare(folder):
-    record = run("borvik_2011/bare_150mm", folder / "bare", "--level", "coarse")
+def judge_wet(folder):
+    record = run("borvik_2011/wet_150mm", folder / "wet", "--level", "coarse")
     judge_books(record)
     impulse = record["results"]["impulse_Ns"]
-    # Published about 130 Ns; Kingery-Bulmash scaled to C-4 gives 101 to 133 Ns; vacuum instead of air adds a few percent.
-    expect("bare: impulse 120 to 155 Ns", 120.0 < impulse < 155.0, f"{impulse:.1f} Ns")
+    # Published above 400 Ns. The sand alone, accelerated by all of the charge's energy, carries no more than
+    # sqrt(2 M E): a quarter of the shell's momentum goes towards the plate, no grain bounces.
+    expect("wet: impulse above 400 Ns", 400.0 < impulse, f"{impulse:.1f} Ns")
+
+
+def judge_bare(folder):
+    record = run("borvik_2011/bare_150mm", folder / "bare", "--level", "coarse")
+    judge_books(record, interface=0.06)  # 2 x 1.19 us of the 40 us in which the blast in air does its work
+    results, air = record["results"], record["air"]
+    # Published about 130 Ns; Kingery-Bulmash scaled to C-4 gives 101 to 133 Ns; a few percent for the seed.
+    expect("bare: impulse 100 to 140 Ns in air", 100.0 < results["impulse_Ns"] < 140.0, f"{results['impulse_Ns']:.1f} Ns")
+    parts = results["impulse_gas_Ns"] + results["impulse_air_Ns"]
+    expect("bare: products and air make the impulse", abs(parts - results["impulse_Ns"]) < 1e-9 * results["impulse_Ns"], f"{parts:.1f} Ns")
+    expect("bare: how the air was resolved is told", air["knudsen_number"] < 0.2 and air["compressibility_factor"] < 1.005,
+           f"Knudsen number {air['knudsen_number']:.3f}")
 
 
 def judge_third_party(folder):
@@ -110,7 +124,7 @@ def judge_paraview(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for judge in (judge_mistakes, judge_dry, judge_bare, judge_third_party, judge_repeatability, judge_paraview):
+        for judge in (judge_mistakes, judge_dry, judge_bare, judge_wet, judge_third_party, judge_repeatability, judge_paraview):
             print(judge.__name__)
             judge(folder)
     print(f"{len(failures)} failed")
