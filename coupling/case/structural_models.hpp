@@ -20,8 +20,13 @@ inline constexpr StructuralModelEntry structural_models[] = {
      "large deflection, membrane and bending waves, stress through the thickness; Johnson-Cook hardening, rate, "
      "heating and thermal expansion; the way to rest",
      "fracture, slip under the clamp", 1.0},
-    {"rigid_plate", "The surface of the plate held still.", "the load: impulse and where it lands",
-     "all motion: no deflection, and the load is that on a plate that does not recede", 0.0},
+    {"rigid_plate", "The plate as one rigid body: held, or with free edges pushed along z by the load.",
+     "the load: impulse and where it lands", "all deformation; held, the load is that on a plate that does not recede",
+     0.0},
+    {"single_dof", "The plate as one spring, mass and yield: hinges and a stretched sheet, closed form (Biggs, Jones).",
+     "what an impulse does to a square plate, to a factor, in no time; hardening, rate and heating of the mean strain; "
+     "the way to rest",
+     "the shape of deflection and load, waves, local strain", 0.0},
     {"material_point", "One point of the plate's material, without load: `standoff run` draws its flow curves.",
      "hardening, rate and temperature as the plate's elements compute them",
      "the plate, the charge and everything else", 0.0}};

@@ -2,6 +2,7 @@
 #include "coupling/case/near_word.hpp"
 #include "structure_solver/models/plate_hex64/plate_hex64.hpp"
 #include "structure_solver/models/rigid_plate/rigid_plate.hpp"
+#include "structure_solver/models/single_dof/single_dof.hpp"
 
 namespace standoff::structure {
 namespace {
@@ -19,6 +20,8 @@ constexpr Entry registry[] = {
      }},
     {"rigid_plate",
      [](const CaseSpec& spec, int) -> std::unique_ptr<StructuralModel> { return std::make_unique<RigidPlate>(spec); }},
+    {"single_dof",
+     [](const CaseSpec& spec, int) -> std::unique_ptr<StructuralModel> { return std::make_unique<SingleDof>(spec); }},
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
-// Model "rigid_plate": the surface of the plate held still. It receives force and moves nowhere: for pure load studies,
-// and the smallest example of a structural model.
-#include "structure_solver/models/structural_model.hpp"
+// Model "rigid_plate": the plate as one rigid body. Held by its edges it receives force and moves nowhere: for pure
+// load studies. With plate.edges = "free" nothing holds it along z and the load pushes it, M W'' = F, as in the
+// pendulum of an impulse test; it does not tilt or slide.
+#include "structure_solver/models/shaped_surface.hpp"
 
 namespace standoff::structure {
 
@@ -9,40 +10,39 @@ class RigidPlate final : public StructuralModel {
  public:
   explicit RigidPlate(const CaseSpec& spec);
 
-  const SurfaceMesh& surface() const override { return surface_; }
-  void surface_motion(SurfaceMotion& motion) const override {
-    motion.position = surface_.position;
-    motion.velocity.assign(surface_.position.size(), Vec3{});
-  }
+  const SurfaceMesh& surface() const override { return shaped_.surface(); }
+  void surface_motion(SurfaceMotion& motion) const override { shaped_.motion(way_, velocity_, motion); }
   void set_surface_force(std::span<const Vec3> force) override;
   double stable_step() const override { return stable_step_; }
   void step(double dt) override;
   double time() const override { return time_; }
   StructureLedger ledger() const override;
   StructureExtremes extremes() const override { return {}; }
-  double centre_deflection() const override { return 0.0; }
-  double max_deflection() const override { return 0.0; }
-  std::vector<ProfilePoint> profile() const override;
-  StructureFrame frame() const override;
-  void add_to(StateHash& hash) const override { hash.add(impulse_); }
+  double centre_deflection() const override { return way_; }
+  double max_deflection() const override { return way_; }
+  std::vector<ProfilePoint> profile() const override { return shaped_.profile(way_); }
+  StructureFrame frame() const override { return shaped_.frame(way_, velocity_); }
+  void add_to(StateHash& hash) const override;
   void save(StateWriter& writer) const override { writer(*this); }
   void restore(StateReader& reader) override { reader(*this); }
   double mass() const override { return mass_; }
   template <class Archive>
   void archive(Archive& a) {
-    a(time_, force_, impulse_);
+    a(time_, force_, push_, impulse_, way_, velocity_, work_);
   }
   long elements() const override { return 0; }
   const StageTimers& timers() const override { return timers_; }
 
  private:
-  SurfaceMesh surface_;
-  bool mirrored_;
+  bool free_;
   double mass_;         // kg
-  int line_nodes_;      // surface nodes along x
   double stable_step_;  // s; nothing can become unstable, but the window rule asks for a time
+  ShapedSurface shaped_;
   double time_ = 0.0;
-  Vec3 force_, impulse_;
+  Vec3 force_, impulse_;               // N, N s
+  double push_ = 0.0;                  // N, along the way
+  double way_ = 0.0, velocity_ = 0.0;  // m, m/s, away from the charge
+  double work_ = 0.0;                  // J
   StageTimers timers_;
 };
 
