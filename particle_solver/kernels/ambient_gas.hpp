@@ -2,10 +2,11 @@
 // A gas at rest in equilibrium: what a volume of it holds and what crosses a plane in it, so that a region that is not
 // simulated can stand beside one that is.
 //
-//   component velocity  normal, standard deviation s = sqrt(p / rho)
-//   crossing a plane    n s / sqrt(2 pi) particles per area and time, normal velocity s sqrt(-2 ln u), tangential
-//   normal internal energy     Gamma(zeta / 2) m s^2: exponential for zeta = 2 (gamma = 1.4) mean free path      lambda
-//   = 1 / (sqrt(2) sigma n), sigma the cross-section of hard spheres
+//   component velocity       normal, standard deviation s = sqrt(p / rho)
+//   crossing a plane         n s / sqrt(2 pi) particles per area and time; normal velocity s sqrt(-2 ln u), tangential
+//                            normal
+//   internal energy          Gamma(zeta / 2) m s^2: exponential for zeta = 2 (gamma = 1.4)
+//   mean free path           lambda = 1 / (sqrt(2) sigma n), sigma the cross-section of hard spheres
 // Source: Bird, Molecular Gas Dynamics (1994), eqs. 4.13, 4.22 (flux at rest), 4.52 (free path), app. C (sampling).
 //
 // Symbols: p [Pa] > 0, rho [kg/m3] > 0, n particles [1/m3], m [kg], lambda [m]. Exact for any values; no stability

@@ -8,6 +8,13 @@
 //   line of centres         as hard spheres meet: cos^2 of the angle to the relative velocity uniform in (0, 1)
 // Source: Bird, Molecular Gas Dynamics (1994), eqs. 11.3 and 11.5 (no time counter), 2.16 (hard spheres). The impulse
 // along the line of centres is that of larsen_borgnakke.hpp, so products and air relax by one law.
+//
+// A particle stands for many molecules, and products and air for different masses M and m of molecules that are alike.
+// Molecules of one gas in the other lose their relative motion at the rate n sigma g / 2 (each collision takes half);
+// particles at n sigma' g m / (m + M). Both agree, and the momentum that passes is the same from either side, for
+//   sigma' = sigma (1 + M / m) / 2,   sigma that of air with air.
+// With sigma itself heavy particles of products fly through the air like shot: a blast wave with 30 % less momentum in
+// the air (tests/verification/particles_gas_blast_sphere_slow_test.cpp).
 // Deviation: g_max is a bound from the velocities in the cell, not a stored running maximum: no state, no bias.
 //
 // Symbols: sigma [m2], g [m/s], dt [s], V [m3]. Valid while a particle collides and moves less than a cell in dt;
@@ -24,6 +31,11 @@ inline double candidates_among(double count, double swept_volume, double cell_vo
 }
 inline double candidates_between(double count, double others, double swept_volume, double cell_volume) {
   return count * others * swept_volume / cell_volume;
+}
+
+/// sigma' [m2] of air particles of mass `air` with products of mass `products`.
+inline double unlike_cross_section(double sigma, double air, double products) {
+  return 0.5 * sigma * (1.0 + products / air);
 }
 
 /// Unit vector n with closing . n < 0 for two hard spheres that meet with relative velocity `closing` = v_j - v_i != 0.

@@ -67,9 +67,9 @@ void AirCollide::collide_cell(Air& air, GasState* products, std::uint32_t cell, 
   }
   if (others.empty()) return;
   const double both = spread + fastest(*products, others, mean), zeta_products = zeta_of(*products);
-  const long between = whole_with_mean(
-      candidates_between(count, static_cast<double>(others.size()), air.cross_section * both * dt, air.cells.volume()),
-      random);
+  const double swept = unlike_cross_section(air.cross_section, points.mass, products->mass) * both * dt;
+  const long between =
+      whole_with_mean(candidates_between(count, static_cast<double>(others.size()), swept, air.cells.volume()), random);
   for (long k = 0; k < between; ++k) {
     const std::uint32_t i = members[pick(members.size(), random)], j = others[pick(others.size(), random)];
     const Vec3 closing = products->velocity[j] - points.velocity[i];

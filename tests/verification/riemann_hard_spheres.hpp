@@ -16,7 +16,7 @@ struct HardSphereGas {
   double gamma = 1.4, covolume = 0.0;  // m3/kg: fill = covolume * rho
   double z(double rho) const {
     const double f = covolume * rho;
-    return (1 + f + f * f - f * f * f) / std::pow(1 - f, 3);
+    return (1 + f + f * f - f * f * f) / ((1 - f) * (1 - f) * (1 - f));
   }
   double pressure(double rho, double t) const { return rho * t * z(rho); }
   double sound(double rho, double t) const {
