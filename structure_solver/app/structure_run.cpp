@@ -24,10 +24,11 @@ class PlateFiles {
   void frame(double time, const StructuralModel& model) {
     if (series_) write(time, model.frame());
   }
-  /// The state in which a guard stopped the run, if it can be shown.
-  void last_frame(double time, const StructuralModel& model) {
-    if (!series_) return;
+  /// The state in which a guard stopped the run, if it can be shown; says where it is.
+  std::string last_frame(double time, const StructuralModel& model) {
+    if (!series_) return "";
     if (const StructureFrame now = model.frame(); can_be_shown(now)) write(time, now);
+    return "\n  the last sound shape is the last frame of plate/plate.pvd";
   }
   template <class Archive>
   void archive(Archive& a) {
@@ -141,8 +142,8 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
   try {
     follow_windows();
   } catch (const Stop& stop) {
-    if (stop.code() == ExitCode::guard) files.last_frame(model->time(), *model);
-    throw;
+    if (stop.code() != ExitCode::guard) throw;
+    throw Stop(ExitCode::guard, stop.what() + files.last_frame(model->time(), *model));
   }
   books.observe(*model);
   books.close_momentum(*model);

@@ -127,7 +127,7 @@ template <class Law, class T>
 inline T flow_point(const MetalParameters& metal, const PointStep& step, T trial, const Mat3<T>& inverse_transposed,
                     const Sym3<T>& x, const Sym3<T>& dev, PointHistory<T>& s, PointResult<T>& out) {
   const T limit = fused(out.volume_ratio, s.static_stress, T(yield_tolerance * metal.flow.A));
-  const MaskOf<T> yielding = trial > limit;
+  const MaskOf<T> yielding = (trial > limit) & (out.volume_ratio > T(0.0));  // a point inside out keeps its history
   if (!step.flow || !any(yielding)) return T(1.0);
   const FlowResult<T> flow = flow_of_step<Law>(metal, s, trial, out.volume_ratio, step.dt, yielding);
   const T increment = select(yielding, flow.increment, T(0.0));

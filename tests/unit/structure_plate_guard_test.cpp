@@ -40,6 +40,25 @@ TEST(PlateGuard_Inversion, UnderAnAbsurdForce_NamesElementTimePlaceAndRemedy) {
     EXPECT_TRUE(s.says(word)) << word << " in: " << s.text;
 }
 
+// What is shown after an inversion is the shape before it: every cell still has a positive thickness, finite values.
+TEST(PlateGuard_Inversion, FrameAfterwards_IsTheLastSoundShape) {
+  PlateHex64 model(plate_case(4, true), 1);
+  std::vector<Vec3> force(model.surface().position.size());
+  force[0].z = -1e8;
+  model.set_surface_force(force);
+  double before = 0.0, dt = 0.0;
+  const Stopped s = stopped([&] {
+    for (int i = 0; i < 100; ++i) before = model.time(), dt = model.stable_step(), model.step(dt);
+  });
+  ASSERT_EQ(s.code, ExitCode::guard);
+  EXPECT_NEAR(model.time(), before, 1e-9 * dt) << "s";
+  std::vector<double> u(static_cast<std::size_t>(model.relaxation()->dofs())), v(u), f(u);
+  model.relaxation()->get_state(u, v);
+  EXPECT_TRUE(model.relaxation()->internal_force(u, 0.0, f)) << "no element of the shape shown is inside out";
+  for (const auto& [name, values] : model.frame().cell_data)
+    for (const double value : values) EXPECT_TRUE(std::isfinite(value)) << name;
+}
+
 TEST(PlateGuard_NotANumber, InTheLoad_IsStoppedAtOnce) {
   PlateHex64 model(plate_case(4, true), 1);
   std::vector<Vec3> force(model.surface().position.size());

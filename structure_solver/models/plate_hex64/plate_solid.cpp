@@ -92,8 +92,7 @@ double PlateSolid::rest_step() {
   return 2.0 / std::sqrt(solver.eigenvalues().maxCoeff());
 }
 
-void PlateSolid::throw_if_broken(const ForceSums& sums) const {
-  if (sums.broken_element < 0) return;
+Stop PlateSolid::broken(const ForceSums& sums) const {
   const Vec3 first = mesh_.gauss_position(sums.broken_element, 0), last = mesh_.gauss_position(sums.broken_element, 63);
   const Vec3 centre = 0.5 * (first + last);
   char text[640];
@@ -105,7 +104,12 @@ void PlateSolid::throw_if_broken(const ForceSums& sums) const {
       "  stand-off, or a shorter coupling.window if the step above is larger than the stable one",
       sums.broken_element, 1e6 * time_, 1e3 * centre.x, 1e3 * centre.y, 1e3 * centre.z, 1e6 * last_dt_,
       1e6 * stable_step_);
-  throw Stop(ExitCode::guard, text);
+  return Stop(ExitCode::guard, text);
+}
+
+void PlateSolid::step_back(double dt) {
+  for (std::size_t i = 0; i < state_.u.size(); ++i) state_.u[i] += -dt * state_.v[i];
+  time_ -= dt;
 }
 
 void PlateSolid::kick_and_drift_nodes(double dt) {
@@ -117,7 +121,11 @@ void PlateSolid::kick_and_drift_nodes(double dt) {
 
 void PlateSolid::update_elements(double dt) {
   const ForceSums sums = forces_.evaluate(state_.u, {dt, true}, true);
-  throw_if_broken(sums);
+  if (sums.broken_element >= 0) {
+    const Stop cause = broken(sums);
+    step_back(dt);
+    throw cause;
+  }
   elastic_ = sums.elastic;
   books_.inelastic_work += sums.inelastic;
   if (++steps_ % steps_between_estimates == 0) stable_step_ = step_safety * rest_step_ * forces_.shape_factor(state_.u);
@@ -136,7 +144,7 @@ void PlateSolid::set_motion(std::span<const Vec3> u, std::span<const Vec3> v) {
   std::copy(u.begin(), u.end(), state_.u.begin());
   std::copy(v.begin(), v.end(), state_.v.begin());
   const ForceSums sums = forces_.evaluate(state_.u, {0.0, false}, false);
-  throw_if_broken(sums);
+  if (sums.broken_element >= 0) throw broken(sums);
   elastic_ = sums.elastic;
   collect_internal_force();
   stable_step_ = step_safety * rest_step_ * forces_.shape_factor(state_.u);
@@ -145,7 +153,7 @@ void PlateSolid::set_motion(std::span<const Vec3> u, std::span<const Vec3> v) {
 void PlateSolid::commit(std::span<const Vec3> u, double dt) {
   std::copy(u.begin(), u.end(), state_.u.begin());
   const ForceSums sums = forces_.evaluate(state_.u, {dt, true}, true);
-  throw_if_broken(sums);
+  if (sums.broken_element >= 0) throw broken(sums);
   elastic_ = sums.elastic;
   books_.inelastic_work += sums.inelastic;
   collect_internal_force();

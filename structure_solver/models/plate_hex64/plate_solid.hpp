@@ -53,7 +53,9 @@ class PlateSolid {
   }
 
  private:
-  void throw_if_broken(const ForceSums& sums) const;
+  Stop broken(const ForceSums& sums) const;
+  /// Back to the shape before the drift of this step: the last one without a broken element, for the last frame.
+  void step_back(double dt);
   double rest_step();
   void collect_internal_force();
 
