@@ -126,6 +126,7 @@ void plate(const Fields& from, PlateSpec& to) {
   from.get("plate.size", to.size);
   from.get("plate.elements", to.elements);
   from.get("plate.edges", to.edges);
+  from.get("plate.opening", to.opening);
   from.get("plate.surround", to.surround);
   from.get("plate.surround_size", to.surround_size);
   material(from, to.material);

@@ -107,9 +107,10 @@ struct PlateSpec {
   MaterialSpec material;
   Vec3 size;                               // m: width x, width y, thickness
   std::array<int, 3> elements{10, 10, 1};  // full plate
-  std::string edges = "clamped";
-  std::string surround = "rigid";  // "rigid" | "open"
-  double surround_size = 0.613;    // m, side of the square cover plate
+  std::string edges = "clamped";           // "clamped" | "pinned" | "free" | "bolted"
+  double opening = 0.0;                    // m, side of the square opening of a frame; with "bolted"
+  std::string surround = "rigid";          // "rigid" | "open"
+  double surround_size = 0.613;            // m, side of the square cover plate
   friend bool operator==(const PlateSpec&, const PlateSpec&) = default;
 };
 

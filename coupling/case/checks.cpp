@@ -124,6 +124,7 @@ class SceneCheck {
               fmt::format("quarter symmetry needs even numbers of elements along x and y, not {} and {}", p.elements[0],
                           p.elements[1]),
               "elements are counted over the full plate; the mirror planes cut it in halves");
+    held(p);
     const Paths heat{"plate.material.melting_temperature", "plate.material.room_temperature"};
     if (usable(heat))
       finding(p.material.melting_temperature <= p.material.room_temperature, heat,
@@ -137,6 +138,19 @@ class SceneCheck {
               fmt::format("the wall around the plate is smaller than the plate: surround_size {}, plate {} by {}",
                           mm(p.surround_size), mm(p.size.x), mm(p.size.y)),
               "surround_size is the outer side of the cover plate; surround = \"open\" leaves it out");
+  }
+
+  void held(const PlateSpec& p) {
+    const Paths frame{"plate.opening", "plate.size", "plate.edges"};
+    if (p.edges == "bolted" && usable(frame))
+      finding(p.opening >= std::min(p.size.x, p.size.y) * (1.0 - touching), frame,
+              fmt::format("the frame does not reach the plate: opening {}, plate {} by {}", mm(p.opening), mm(p.size.x),
+                          mm(p.size.y)),
+              "size is that of the whole plate, rim included; the opening is the part that can bulge");
+    const Paths rest{"plate.edges", "run.settle"};
+    if (usable(rest))
+      finding(p.edges == "free" && p.model != "rigid_plate" && spec_.run.settle, rest,
+              "a free plate flies on and never comes to rest", "run.settle = false ends the run while it moves");
   }
 
   void flow_table(const MaterialSpec& m) {

@@ -221,6 +221,7 @@ class Completion {
     }
     if (has_charge_ || has_soil_) require("run.stand_off");
     require("plate.size");
+    if (s_.word("plate.edges") == "bolted") require("plate.opening", "a frame on both faces has an opening");
     if (s_.is_wrong("plate.material.preset")) return;
     if (!s_.has_section("plate.material") || only_defaults("plate.material")) {
       s_.mark_wrong("plate.material.preset");

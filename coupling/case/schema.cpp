@@ -185,8 +185,12 @@ constexpr KeyEntry entries[] = {
      "",
      "[10, 10, 1]",
      "Elements of the full plate along x, y and through the thickness; usually set by the level."},
-    {"plate.edges", choice, quantity::none, any, "clamped", "clamped", "How the edges are held.",
+    {"plate.edges", choice, quantity::none, any, "clamped|pinned|free|bolted", "clamped",
+     "How the edges are held: not moving at all, free to turn but not to slide, free, or bolted in a frame on both "
+     "faces.",
      "[Borvik 2011, sec. 2]"},
+    {"plate.opening", KeyKind::quantity, quantity::length, positive, "", "",
+     "Side of the square opening of the frame, with edges = \"bolted\": beyond it both faces of the plate are held."},
     {"plate.surround", choice, quantity::none, any, "rigid|open", "rigid",
      "What surrounds the exposed plate: a rigid wall (the cover plate) or nothing."},
     {"plate.surround_size", KeyKind::quantity, quantity::length, positive, "", "613 mm",

@@ -18,8 +18,6 @@ void check(const PlateMeshOptions& o) {
     refuse("plate.elements: a quarter model needs an even number of elements across the full plate, not " +
            std::to_string(o.elements[0]) + " x " + std::to_string(o.elements[1]) +
            "\n  choose even numbers, or run.symmetry = \"none\"");
-  if (o.edges != "clamped" && o.edges != "free")
-    refuse("plate.edges = \"" + o.edges + "\" does not exist for solid elements; edges here: clamped, free");
   if (!(o.density > 0.0)) refuse("plate.material: the density must be positive");
 }
 
@@ -38,17 +36,6 @@ std::vector<double> axis_weights(double edge, int n) {
   for (std::size_t e = 0; e < static_cast<std::size_t>(n); ++e)
     for (std::size_t a = 0; a < 4; ++a) w[3 * e + a] += 0.5 * edge * lobatto_weight[a];
   return w;
-}
-
-std::uint8_t fixed_components(const PlateMesh& mesh, int i, int j) {
-  const bool quarter = mesh.options.quarter;
-  const bool last = i == mesh.nodes[0] - 1 || j == mesh.nodes[1] - 1;
-  const bool first = !quarter && (i == 0 || j == 0);
-  if (mesh.options.edges == "clamped" && (first || last)) return fixed_all;
-  std::uint8_t bits = 0;
-  if (quarter && i == 0) bits |= fixed_x;
-  if (quarter && j == 0) bits |= fixed_y;
-  return bits;
 }
 
 }  // namespace
@@ -88,8 +75,8 @@ PlateMesh make_plate_mesh(const PlateMeshOptions& options) {
       for (std::size_t i = 0; i < x.size(); ++i) {
         mesh.position.push_back({x[i], y[j], z[k]});
         mesh.mass.push_back(options.density * wx[i] * wy[j] * wz[k]);
-        mesh.fixed.push_back(fixed_components(mesh, static_cast<int>(i), static_cast<int>(j)));
       }
+  hold_edges(mesh);
   return mesh;
 }
 

@@ -12,6 +12,7 @@
 
 #include "coupling/base/vec3.hpp"
 #include "structure_solver/elements/hex64_geometry.hpp"
+#include "structure_solver/mesh/plate_edges.hpp"
 
 namespace standoff::structure {
 
@@ -19,11 +20,10 @@ struct PlateMeshOptions {
   Vec3 size;                               // m, full plate: width x, width y, thickness
   std::array<int, 3> elements{10, 10, 1};  // full plate
   bool quarter = true;
-  std::string edges = "clamped";  // "clamped" | "free"
+  std::string edges = "clamped";  // "clamped" | "pinned" | "free" | "bolted"; see plate_edges.hpp
   double density = 0.0;           // kg/m3
+  double opening = 0.0;           // m, side of the square opening of a frame that bolts the plate
 };
-
-enum FixedComponent : std::uint8_t { fixed_x = 1, fixed_y = 2, fixed_z = 4, fixed_all = 7 };
 
 struct PlateMesh {
   PlateMeshOptions options;
@@ -33,6 +33,7 @@ struct PlateMesh {
   std::vector<Vec3> position;       // at rest
   std::vector<double> mass;         // row-sum lumped, kg
   std::vector<std::uint8_t> fixed;  // FixedComponent bits
+  std::vector<Hinge> hinges;
 
   long element_count() const { return static_cast<long>(elements[0]) * elements[1] * elements[2]; }
   std::size_t node_count() const { return position.size(); }

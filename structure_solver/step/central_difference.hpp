@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "structure_solver/ledger/plate_books.hpp"
+#include "structure_solver/mesh/plate_edges.hpp"
 
 namespace standoff::structure {
 
@@ -17,6 +18,7 @@ struct NodalState {
   std::vector<Vec3> internal, external;  // N: resisting force of the elements; load
   std::vector<Vec3> inverse_mass;        // 1/kg, zero for a fixed component
   std::vector<double> mass;              // kg
+  std::vector<Hinge> hinges;             // of a pinned edge; empty otherwise
 
   template <class Archive>
   void archive(Archive& a) {
@@ -42,9 +44,27 @@ inline void kick(NodalState& s, std::size_t i, double half_dt) {
   s.v[i] += by_component(half_dt * s.inverse_mass[i], s.external[i] - s.internal[i]);
 }
 
+/// After a kick: takes out of every hinge the motion that both nodes share. Equal masses, so it is the force of the
+/// constraint, without work. `drift` is the time for which the nodes have already moved with the shared motion [s].
+inline HalfStepSums hold_hinges(NodalState& s, double drift) {
+  HalfStepSums sums;
+  for (const Hinge& hinge : s.hinges) {
+    const auto a = static_cast<std::size_t>(hinge.lower), b = static_cast<std::size_t>(hinge.upper);
+    const auto c = hinge.component;
+    const double shared = 0.5 * (s.v[a].*c + s.v[b].*c);
+    for (const std::size_t i : {a, b}) {
+      s.v[i].*c -= shared;
+      s.u[i].*c -= drift * shared;
+      sums.of_supports.*c -= s.mass[i] * shared;
+      sums.work -= drift * shared * (s.external[i].*c);
+    }
+  }
+  return sums;
+}
+
 /// First half: kick with the force at t_n, then drift.
 inline HalfStepSums kick_and_drift(NodalState& s, double dt, int threads) {
-  return ordered_sum<HalfStepSums>(s.u.size(), threads, [&](std::size_t begin, std::size_t end) {
+  HalfStepSums all = ordered_sum<HalfStepSums>(s.u.size(), threads, [&](std::size_t begin, std::size_t end) {
     HalfStepSums sums;
     for (std::size_t i = begin; i < end; ++i) {
       sums += half_step_impulse(s, i, 0.5 * dt);
@@ -55,12 +75,14 @@ inline HalfStepSums kick_and_drift(NodalState& s, double dt, int threads) {
     }
     return sums;
   });
+  all += hold_hinges(s, dt);
+  return all;
 }
 
 /// Second half: kick with the force at t_{n+1}, which force_at(i) delivers.
 template <class Force>
 HalfStepSums kick_with(NodalState& s, double dt, int threads, const Force& force_at) {
-  return ordered_sum<HalfStepSums>(s.u.size(), threads, [&](std::size_t begin, std::size_t end) {
+  HalfStepSums all = ordered_sum<HalfStepSums>(s.u.size(), threads, [&](std::size_t begin, std::size_t end) {
     HalfStepSums sums;
     for (std::size_t i = begin; i < end; ++i) {
       s.internal[i] = force_at(i);
@@ -69,6 +91,8 @@ HalfStepSums kick_with(NodalState& s, double dt, int threads, const Force& force
     }
     return sums;
   });
+  all += hold_hinges(s, 0.0);
+  return all;
 }
 
 }  // namespace standoff::structure

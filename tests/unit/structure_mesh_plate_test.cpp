@@ -54,7 +54,7 @@ TEST(PlateMesh_WrongOptions, AnyMistake_IsNamedWithARemedy) {
   };
   const Vec3 size{0.4, 0.4, 0.003};
   EXPECT_NE(message({size, {5, 4, 1}, true, "clamped", 8000}).find("even number"), std::string::npos);
-  EXPECT_NE(message({size, {4, 4, 1}, true, "pinned", 8000}).find("clamped, free"), std::string::npos);
+  EXPECT_NE(message({size, {4, 4, 1}, true, "glued", 8000}).find("clamped, pinned, free"), std::string::npos);
   EXPECT_NE(message({size, {4, 0, 1}, false, "clamped", 8000}).find("at least 1"), std::string::npos);
   EXPECT_NE(message({{0.4, 0.4, 0.0}, {4, 4, 1}, false, "clamped", 8000}).find("longer than zero"), std::string::npos);
 }

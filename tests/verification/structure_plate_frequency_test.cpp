@@ -9,27 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/structure_plate_case.hpp"
+#include "tests/verification/structure_frequency.hpp"
 
 namespace standoff::structure {
 namespace {
 
-double first_frequency(PlateHex64& model) {
-  RelaxationProblem& plate = *model.relaxation();
-  const std::vector<double> rest(static_cast<std::size_t>(plate.dofs()), 0.0);
-  const Eigen::SparseMatrix<double> k = plate.stiffness(rest);
-  const Eigen::Map<const Eigen::VectorXd> mass(plate.mass().data(), plate.dofs());
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(k);
-  EXPECT_EQ(factor.info(), Eigen::Success);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(plate.dofs());
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1.0 + 0.1 * std::sin(static_cast<double>(i));
-  double quotient = 0.0;
-  for (int i = 0; i < 12; ++i) {
-    x = factor.solve(mass.cwiseProduct(x)).eval();
-    quotient = x.dot(k * x) / x.dot(mass.cwiseProduct(x));
-    x.normalize();
-  }
-  return std::sqrt(quotient) / (2.0 * M_PI);
-}
+using testing::first_frequency;
 
 TEST(ClampedPlate_FirstFrequency, TenByTenQuarter_IsWithinOnePercentOfKirchhoff) {
   PlateHex64 model(testing::plate_case(10, true), 1);

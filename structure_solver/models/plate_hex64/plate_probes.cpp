@@ -67,8 +67,8 @@ std::vector<ProfilePoint> PlateProbes::profile(std::span<const Vec3> u) const {
 
 StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
   StructureExtremes x;
-  const Vec3& size = mesh_.options.size;
-  const double margin = std::max(size.x, size.y) / 20.0;  // two elements of a 40 x 40 mesh
+  const double half_x = free_half_width(mesh_, 0), half_y = free_half_width(mesh_, 1);
+  const double margin = std::max(half_x, half_y) / 10.0;  // two elements of a 40 x 40 mesh
   double nearest = 1e300;
   for (long e = 0; e < mesh_.element_count(); ++e)
     for (int q = 0; q < hex_points; ++q) {
@@ -77,7 +77,7 @@ StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
       x.max_plastic_strain = std::max(x.max_plastic_strain, strain);
       x.max_temperature_rise =
           std::max(x.max_temperature_rise, forces.temperature(e, q) - forces.metal().flow.room_temperature);
-      const double to_edge = std::min(0.5 * size.x - std::fabs(at.x), 0.5 * size.y - std::fabs(at.y));
+      const double to_edge = std::min(half_x - std::fabs(at.x), half_y - std::fabs(at.y));
       if (to_edge > margin)
         x.max_plastic_strain_away_from_clamp = std::max(x.max_plastic_strain_away_from_clamp, strain);
       // The columns of Gauss points next to the axis speak for the centre: their largest value.

@@ -23,12 +23,14 @@ class PlateRelaxation final : public RelaxationProblem {
  private:
   /// Free components spread over all nodes, zero where fixed.
   std::vector<Vec3> spread(std::span<const double> free) const;
+  std::vector<std::vector<std::int32_t>> columns_of_nodes() const;
   Eigen::SparseMatrix<double> empty_stiffness() const;
 
   PlateSolid& plate_;
   const PlateProbes& probes_;
   std::vector<double> mass_;
   std::vector<std::int32_t> dof_;  // [3 node + component], -1 where fixed
+  std::vector<double> sign_;       // [3 node + component], -1 for the upper node of a hinge, which has the lower one's
 };
 
 }  // namespace standoff::structure

@@ -53,8 +53,8 @@ MetalEffects metal_effects(const CaseSpec& spec) {
 }
 
 PlateMeshOptions mesh_options(const CaseSpec& spec) {
-  return {spec.plate.size, spec.plate.elements, spec.run.quarter_symmetry, spec.plate.edges,
-          spec.plate.material.density};
+  return {spec.plate.size,  spec.plate.elements,         spec.run.quarter_symmetry,
+          spec.plate.edges, spec.plate.material.density, spec.plate.opening};
 }
 
 PlateSolid::PlateSolid(const CaseSpec& spec, int threads)
@@ -64,6 +64,7 @@ PlateSolid::PlateSolid(const CaseSpec& spec, int threads)
   const std::size_t n = mesh_.node_count();
   state_.u.resize(n), state_.v.resize(n), state_.internal.resize(n), state_.external.resize(n);
   state_.mass = mesh_.mass;
+  state_.hinges = mesh_.hinges;
   for (std::size_t i = 0; i < n; ++i) {
     const double inverse = 1.0 / mesh_.mass[i];
     const unsigned fixed = mesh_.fixed[i];
