@@ -20,8 +20,10 @@ Rim rim_of(const PlateMesh& mesh, int i, int j) {
 }
 
 unsigned mirror_planes(const PlateMesh& mesh, int i, int j) {
-  if (!mesh.options.quarter) return 0;
-  return (i == 0 ? fixed_x : 0u) | (j == 0 ? fixed_y : 0u);
+  unsigned bits = 0;
+  if (mesh.options.quarter && i == 0) bits |= fixed_x;
+  if (mesh.options.quarter && j == 0) bits |= fixed_y;
+  return bits;
 }
 
 /// The component normal to a pinned edge turns about the mid-surface: layer k against its mirror image.
@@ -32,8 +34,10 @@ void add_hinges(PlateMesh& mesh, int i, int j, double Vec3::*normal, std::uint8_
 }
 
 unsigned held_when_pinned(Rim rim) {
-  if (rim.x && rim.y) return fixed_all;
-  return rim.x ? fixed_y | fixed_z : rim.y ? fixed_x | fixed_z : 0u;
+  unsigned bits = 0;
+  if (rim.x) bits |= fixed_y | fixed_z;
+  if (rim.y) bits |= fixed_x | fixed_z;
+  return bits;
 }
 
 void hold_column(PlateMesh& mesh, int i, int j) {
