@@ -34,7 +34,7 @@ TEST(Diagnostics, FourDifferentMistakes_AreAllReportedWithTheirPositions) {
   EXPECT_THAT(
       result.errors,
       ElementsAre("case.toml:6:3: error: unknown key \"materal\" in [plate]\n  did you mean \"material\"?  keys "
-                  "here: model, size, elements, edges, surround, surround_size, material",
+                  "here: model, size, elements, edges, opening, surround, surround_size, material",
                   "case.toml:8:19: error: size[1] = 406 has no unit; a length is needed (m, cm, mm, in, "
                   "ft)\n  the unit is part of the value: \"406 m\"",
                   "case.toml:10:13: error: stand_off = \"150 kg\" is a mass; a length is needed (m, cm, mm, in, ft)",
