@@ -160,8 +160,9 @@ constexpr KeyEntry entries[] = {
      "Lower corner of the box. If nothing is given the box reaches 0.6 m to each side, 0.2 m behind the loaded face "
      "and 0.8 m beyond the charge."},
     {"domain.upper", quantities, quantity::length, any, "", "", "Upper corner of the box; see domain.lower."},
-    {"domain.boundaries", choice, quantity::none, any, "open", "open",
-     "What happens at the box: open removes and books what leaves."},
+    {"domain.boundaries", choice, quantity::none, any, "open|reflecting", "open",
+     "What happens at the box: open removes and books what leaves (and lets ambient air in), reflecting turns it "
+     "round."},
     {"contact.surface_restitution", number, quantity::none, fraction, "soil", "0",
      "Grain against plate: 0 stops the normal motion, 1 reflects it, \"soil\" uses the soil's own spring law.",
      "Holloman et al. 2015: wet glass sand on a rigid block transmits 1.0 to 1.1 times its momentum"},

@@ -25,6 +25,7 @@ AirCellsOptions cell_options(const CaseSpec& spec, double size) {
   options.lower = spec.domain.lower, options.upper = spec.domain.upper;
   options.size = size;
   options.mirrors = spec.run.quarter_symmetry;
+  options.closed = spec.domain.boundaries == "reflecting";
   if (options.mirrors) options.lower.x = options.lower.y = 0.0;
   const bool cover = spec.plate.surround == "rigid";
   options.cover_x = 0.5 * (cover ? spec.plate.surround_size : spec.plate.size.x);

@@ -62,7 +62,7 @@ struct MirrorPlanes {
 
 /// Impulse and energy booked outside the particles, simulated part only; see ledger/.
 struct BoundaryBooks {
-  Vec3 mirror_impulse;          // N s given to the mirror planes
+  Vec3 mirror_impulse;          // N s given to mirror planes and to walls of a closed box
   Vec3 surround_impulse;        // N s given to the rigid cover around the plate
   Vec3 escaped_momentum;        // kg m/s carried away
   double escaped_energy = 0.0;  // J, kinetic + internal

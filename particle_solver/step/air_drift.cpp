@@ -13,11 +13,18 @@ namespace {
 // it flies on from where it is in the next one.
 constexpr int most_bounces = 200;
 
-/// What an elastic mirror in x = 0 and y = 0 makes of a finished flight.
-Vec3 fold(Vec3& position, Vec3& velocity) {
+/// What planes make of a finished flight; returns what they take of the velocity.
+Vec3 fold(const ReflectingPlanes& planes, Vec3& position, Vec3& velocity) {
   const Vec3 before = velocity;
-  if (position.x < 0.0) position.x = -position.x, velocity.x = -velocity.x;
-  if (position.y < 0.0) position.y = -position.y, velocity.y = -velocity.y;
+  const auto axis = [](double& x, double& v, double low, double high) {
+    if (x < low)
+      x = 2.0 * low - x, v = -v;
+    else if (x > high)
+      x = 2.0 * high - x, v = -v;
+  };
+  axis(position.x, velocity.x, planes.lower.x, planes.upper.x);
+  axis(position.y, velocity.y, planes.lower.y, planes.upper.y);
+  axis(position.z, velocity.z, planes.lower.z, planes.upper.z);
   return before - velocity;
 }
 
@@ -25,7 +32,8 @@ Vec3 fold(Vec3& position, Vec3& velocity) {
 
 struct AirDrift::Hit {
   double time = no_impact;
-  enum { none, mirror_x, mirror_y, grain, sheet } what = none;
+  enum { none, plane, grain, sheet } what = none;
+  unsigned axis = 0;
   std::uint32_t grain_index = 0;
   SheetPoint where;
 };
@@ -79,16 +87,13 @@ AirDrift::Hit AirDrift::earliest(const GasState& gas, std::size_t i, double from
       }
     });
   }
-  if (mirrors_) {
-    const double at_x = plane_impact_time(x.x, v.x, 0.0, from, until),
-                 at_y = plane_impact_time(x.y, v.y, 0.0, from, until);
-    if (at_x < hit.time) hit.time = until = at_x, hit.what = Hit::mirror_x;
-    if (at_y < hit.time) hit.time = until = at_y, hit.what = Hit::mirror_y;
-  }
+  if (planes_.on)
+    if (const PlaneHit plane = first_plane(planes_, x, v, from, until); plane.time < hit.time)
+      hit.time = until = plane.time, hit.what = Hit::plane, hit.axis = plane.axis;
   SheetPoint where;
   double time = no_impact;
   if (sheet != nullptr && sheet->first_hit(x, v, gas.radius, from, until, time, where) && time < hit.time)
-    hit = {time, Hit::sheet, 0, where};
+    hit = {time, Hit::sheet, 0, 0, where};
   return hit;
 }
 
@@ -102,8 +107,8 @@ void AirDrift::fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet
     from = hit.time;
     const Vec3 old = v;
     double speed_of_other = 0.0;
-    if (hit.what == Hit::mirror_x || hit.what == Hit::mirror_y) {
-      const Vec3 change = hit.what == Hit::mirror_x ? Vec3{-2.0 * v.x, 0.0, 0.0} : Vec3{0.0, -2.0 * v.y, 0.0};
+    if (hit.what == Hit::plane) {
+      const Vec3 change = change_at_plane(v, hit.axis);
       change_velocity(x, v, change, from);
       counts.mirror_impulse -= change * gas.mass;
       continue;
@@ -146,9 +151,9 @@ AirDriftCounts AirDrift::run(Air& air, SandState* sand, SurfaceSheet* sheet, dou
     if (near_[i] == 0) gas.position[i] += gas.velocity[i] * dt;
   for (std::size_t i = 0; i < gas.size(); ++i)
     if (near_[i] != 0) fly(air, i, sand, sheet, dt, counts);
-  if (mirrors_)
+  if (planes_.on)
     for (std::size_t i = 0; i < gas.size(); ++i)
-      counts.mirror_impulse += fold(gas.position[i], gas.velocity[i]) * gas.mass;
+      counts.mirror_impulse += fold(planes_, gas.position[i], gas.velocity[i]) * gas.mass;
   return counts;
 }
 

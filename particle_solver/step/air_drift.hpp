@@ -5,6 +5,7 @@
 // Momentum and energy are exact. Air flies once a window, which is several steps of grains: a grain takes its impulse
 // at once and is not shifted back as media.hpp would have it, because its neighbours would feel the shift as an
 // overlap.
+#include "particle_solver/kernels/reflecting_planes.hpp"
 #include "particle_solver/search/gas_cell_grid.hpp"
 #include "particle_solver/search/gas_near_map.hpp"
 #include "particle_solver/state/air.hpp"
@@ -15,13 +16,13 @@ namespace standoff::particles {
 struct AirDriftCounts {
   double plate_impulse = 0.0;   // N s given to the plate (not its cover), positive away from the charge
   double plate_incoming = 0.0;  // kg m/s at first contact, likewise
-  Vec3 mirror_impulse;          // N s given to the mirror planes
+  Vec3 mirror_impulse;          // N s given to mirrors and walls of the box
   long sheet_hits = 0, sand_hits = 0;
 };
 
 class AirDrift {
  public:
-  AirDrift(bool mirrors, int threads) : mirrors_(mirrors), threads_(threads) {}
+  AirDrift(const ReflectingPlanes& planes, int threads) : planes_(planes), threads_(threads) {}
   /// Positions of the air are moved to the end of the step; grains and sheet keep the convention of media.hpp.
   AirDriftCounts run(Air& air, SandState* sand, SurfaceSheet* sheet, double dt);
 
@@ -33,7 +34,7 @@ class AirDrift {
                const SurfaceSheet* sheet) const;
   void fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet, double dt, AirDriftCounts& counts);
 
-  bool mirrors_;
+  ReflectingPlanes planes_;
   int threads_;
   std::vector<std::uint8_t> near_;  // of every particle
   GasCellGrid grains_;

@@ -50,6 +50,7 @@ Boundaries::Boundaries(const BoundaryOptions& options)
 
 Boundaries::Limits Boundaries::limits(const SurfaceSheet* sheet) const {
   Limits limits{options_.lower, options_.upper, infinity, infinity, -infinity, -infinity};
+  if (options_.closed) limits.lower = {-infinity, -infinity, -infinity}, limits.upper = {infinity, infinity, infinity};
   if (options_.quarter) limits.lower.x = limits.lower.y = -infinity;
   if (sheet == nullptr) return limits;
   const std::vector<Vec3>& rest = sheet->mesh().position;
@@ -110,10 +111,29 @@ void Boundaries::take_out(GasState& gas, const std::vector<std::uint32_t>& out, 
   drop(gas.plate_rebound, out), drop(gas.disturbed, out), drop(gas.id, out);
 }
 
+/// Grains that fly out through a wall of the box; returns the impulse on the walls, N s.
+Vec3 Boundaries::turn_round(SandState& sand) const {
+  Vec3 impulse;
+  const Vec3 &low = options_.lower, &high = options_.upper;
+  const auto outwards = [](double x, double v, double from, double to) {
+    return (x < from && v < 0.0) || (x > to && v > 0.0);
+  };
+  for (std::size_t i = 0; i < sand.size(); ++i) {
+    const Vec3 x = sand.position[i], before = sand.velocity[i];
+    Vec3& v = sand.velocity[i];
+    if (!options_.quarter || x.x > 0.0) v.x *= outwards(x.x, v.x, low.x, high.x) ? -1.0 : 1.0;
+    if (!options_.quarter || x.y > 0.0) v.y *= outwards(x.y, v.y, low.y, high.y) ? -1.0 : 1.0;
+    v.z *= outwards(x.z, v.z, low.z, high.z) ? -1.0 : 1.0;
+    impulse += (before - v) * sand.mass_of(i);
+  }
+  return impulse;
+}
+
 const BoundaryChanges& Boundaries::run(GasState* gas, SandState* sand, const SurfaceSheet* sheet,
                                        BoundaryBooks& books) {
   const Limits now = limits(sheet);
   changes_.gas.clear(), changes_.sand.clear();
+  if (options_.closed && sand != nullptr) books.mirror_impulse += turn_round(*sand);
   if (gas != nullptr) find(*gas, now, changes_.gas);
   if (sand != nullptr) find(*sand, now, changes_.sand);
   if (gas != nullptr) take_out(*gas, changes_.gas, books);

@@ -1,5 +1,6 @@
 #pragma once
-// Stage boundaries: takes out particles that can no longer matter and books what they carry.
+// Stage boundaries: takes out particles that can no longer matter and books what they carry; in a closed box turns
+// grains round at its walls (gas and air meet the walls in flight, reflecting_planes.hpp).
 //
 // Out is a particle that (1) left the domain's box; with a quarter model x = 0 and y = 0 are mirrors, not exits; (2)
 // passed the plane of the plate's edge by one radius outside the sheet's outline, which is how gas gets behind an open
@@ -19,6 +20,7 @@ struct BoundaryOptions {
   Vec3 lower, upper;  // m, domain box
   bool quarter = false;
   int threads = 1;
+  bool closed = false;  // the box has walls that reflect
 };
 
 /// What one call took out: indices before the removal, ascending; for lists that others keep by index.
@@ -57,6 +59,7 @@ class Boundaries {
   Limits limits(const SurfaceSheet* sheet) const;
   template <class State>
   void find(const State& state, const Limits& limits, std::vector<std::uint32_t>& out);
+  Vec3 turn_round(SandState& sand) const;
 
   BoundaryOptions options_;
   BoundaryTotals totals_;

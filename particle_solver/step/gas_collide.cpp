@@ -42,10 +42,12 @@ GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* s
   if (gas.size() == 0) return counts;
   gas::Work& work = impl_->work;
   const GasCollideOptions& options = impl_->options;
-  if (options.periodic_side > 0.0 && (sand != nullptr || sheet != nullptr || options.mirrors.on))
-    throw Stop(ExitCode::guard, "gas_collide: a periodic box holds gas alone; give it no sand, sheet or mirror planes");
+  if (options.periodic_side > 0.0 && (sand != nullptr || sheet != nullptr || options.mirrors.on || options.walls.on))
+    throw Stop(ExitCode::guard,
+               "gas_collide: a periodic box holds gas alone; give it no sand, sheet, mirrors or walls");
   work.h = h, work.step = step, work.sheet = sheet;
-  work.seed = options.seed, work.threads = options.threads, work.mirrors = options.mirrors.on;
+  work.seed = options.seed, work.threads = options.threads,
+  work.planes = reflecting_planes(options.mirrors.on, options.walls.on, options.walls.lower, options.walls.upper);
   work.periodic_side = options.periodic_side;
   work.zeta = options.internal_energy ? internal_degrees_of_freedom(gas.gamma) : 0.0;
 

@@ -2,7 +2,7 @@
 // Stage gas_collide: every hit of a gas particle within one sub-step, at its exact time.
 //
 // Mutual earliest partner: each particle finds the earliest hit on its present straight path (another gas particle, a
-// grain, the sheet, a mirror plane); a pair is resolved only if each is the other's earliest; then only touched
+// grain, the sheet, a plane that mirrors); a pair is resolved only if each is the other's earliest; then only touched
 // particles look again, until no hit is left in the sub-step. Each hit writes two particles owned by one pair: no
 // races, no atomics, the same bits for any number of threads. Pairs that already overlap and approach fire at once.
 //
@@ -10,8 +10,8 @@
 // hit that should have happened before that, because a third body deflected one of them too late to be seen, is not
 // invented afterwards: the pair overlaps then, and if it still approaches it fires at once. What is lost is the order
 // of hits that depend on each other within one sub-step; it vanishes with the step and is measured as the pressure Z
-// against Carnahan-Starling (tests/verification). Unreleased gas stands still and cannot be passed: it is a wall that
-// remembers the impulse it took (kernels/gas_release.hpp).
+// against Carnahan-Starling (tests/verification). Unreleased gas stands still and cannot be passed; it keeps what it
+// is given (kernels/gas_release.hpp).
 //
 // Files: gas_work.hpp arrays; gas_load.cpp in and out of cell order; gas_search.cpp earliest hits; gas_resolve.cpp the
 // hits; gas_step_control.cpp the next step.
@@ -19,6 +19,7 @@
 #include <memory>
 
 #include "coupling/case/case_spec.hpp"
+#include "particle_solver/kernels/reflecting_planes.hpp"
 #include "particle_solver/state/media.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
 
@@ -34,7 +35,7 @@ struct GasCollideCounts {
   int rounds = 0;            // until nothing was left: the longest chain of hits that depend on each other
   int usual_rounds = 0;      // until 98 % of the hits were done: does not grow with the number of particles
   double pair_virial = 0.0;  // J, sum of impulse times centre distance over gas pairs: p V = N k T + virial / (3 time)
-  Vec3 mirror_impulse;       // N s given to the mirror planes
+  Vec3 mirror_impulse;       // N s given to mirrors and walls of the box
   double plate_impulse = 0.0;   // N s given to the plate (not its rigid surround), positive away from the charge
   double plate_incoming = 0.0;  // kg m/s of particles at their first contact, positive away from the charge
 
@@ -44,7 +45,8 @@ struct GasCollideCounts {
 struct GasCollideOptions {
   bool internal_energy = true;  // Larsen-Borgnakke exchange; off = elastic spheres, a gas of gamma 5/3
   std::uint64_t seed = 1;
-  MirrorPlanes mirrors;
+  MirrorPlanes mirrors;    // of a quarter model
+  ReflectingPlanes walls;  // of a closed box
   int threads = 1;
   double periodic_side = 0.0;  // m; > 0: a periodic cube of this side, gas only (material tests)
 };

@@ -24,7 +24,7 @@ struct Pair {
 /// The hits of a round by what is hit.
 struct Due {
   std::vector<Pair> pairs;
-  std::vector<Index> grains, unreleased, mirrors,
+  std::vector<Index> grains, unreleased, planes,
       sheet;  // grains by place of the grain, the others by place of the body
 };
 
@@ -99,9 +99,8 @@ Due what_is_due(Work& work) {
       case Hit::unreleased:
         due.unreleased.push_back(p);
         break;
-      case Hit::mirror_x:
-      case Hit::mirror_y:
-        due.mirrors.push_back(p);
+      case Hit::plane:
+        due.planes.push_back(p);
         break;
       case Hit::sheet:
         due.sheet.push_back(p);
@@ -147,13 +146,11 @@ void resolve_grains(Work& work, const std::vector<Index>& grains, GasCollideCoun
   counts.sand_hits += static_cast<long>(grains.size());
 }
 
-void resolve_mirrors(Work& work, const std::vector<Index>& bodies, GasCollideCounts& counts) {
+void resolve_planes(Work& work, const std::vector<Index>& bodies, GasCollideCounts& counts) {
   for (const Index p : bodies) {
     Body& body = work.body[p];
     const double time = work.choice[p].time;
-    Vec3 change;
-    if (work.choice[p].kind == Hit::mirror_x) change.x = -2.0 * body.velocity.x;
-    if (work.choice[p].kind == Hit::mirror_y) change.y = -2.0 * body.velocity.y;
+    const Vec3 change = change_at_plane(body.velocity, work.choice[p].partner);
     change_velocity(body.start, body.velocity, change, time);
     body.since = time;
     counts.mirror_impulse -= change * work.mass;
@@ -228,7 +225,7 @@ void resolve(Work& work, GasState& gas, GasCollideCounts& counts) {
   Due due = what_is_due(work);
   resolve_pairs(work, gas, due.pairs, counts);
   resolve_grains(work, due.grains, counts);
-  resolve_mirrors(work, due.mirrors, counts);
+  resolve_planes(work, due.planes, counts);
   resolve_unreleased(work, gas, due.unreleased, counts);
   if (work.sheet != nullptr) resolve_sheet(work, gas, due.sheet, counts);
 }

@@ -77,13 +77,10 @@ void look_at_grains(Work& work, Index p) {
 /// symmetric scene. The plane lacks the partners beyond it, which thin gas does not notice; dense gas is then denser
 /// within a diameter of the plane, as at any wall, and as if the plane stood 3 f r / (1 + 2 f) nearer (f fill, r
 /// radius; scaled particle theory, Reiss, Frisch, Helfand & Lebowitz, J. Chem. Phys. 32 (1960) 119).
-void look_at_mirrors(Work& work, Index p) {
+void look_at_planes(Work& work, Index p) {
   const Body& me = work.body[p];
-  Choice& choice = work.choice[p];
-  const double x = plane_impact_time(me.start.x, me.velocity.x, 0.0, me.since, work.h);
-  const double y = plane_impact_time(me.start.y, me.velocity.y, 0.0, me.since, work.h);
-  if (x < choice.time) choice = {x, nobody, Hit::mirror_x};
-  if (y < choice.time) choice = {y, nobody, Hit::mirror_y};
+  const PlaneHit hit = first_plane(work.planes, me.start, me.velocity, me.since, work.h);
+  if (hit.time < work.choice[p].time) work.choice[p] = {hit.time, hit.axis, Hit::plane};
 }
 
 void look_at_sheet(Work& work, Index p, double highest) {
@@ -137,7 +134,7 @@ void look_from_grain(Work& work, Index q) {
 /// Every visitor looks at all that the scene holds, in one parallel pass.
 template <bool Periodic>
 long look_around(Work& work) {
-  const bool grains = !work.grain.empty(), mirrors = work.mirrors, sheet = work.sheet != nullptr;
+  const bool grains = !work.grain.empty(), planes = work.planes.on, sheet = work.sheet != nullptr;
   const double highest = sheet ? work.sheet->highest(work.h) : 0.0;
   const std::size_t count = work.visit.size();
   long looked_at = 0;
@@ -147,7 +144,7 @@ long look_around(Work& work) {
     work.choice[p] = {};
     looked_at += look_at_gas<Periodic>(work, p);
     if (grains) look_at_grains(work, p);
-    if (mirrors) look_at_mirrors(work, p);
+    if (planes) look_at_planes(work, p);
     if (sheet) look_at_sheet(work, p, highest);
   }
   return looked_at;

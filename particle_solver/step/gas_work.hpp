@@ -14,6 +14,7 @@
 
 #include "coupling/base/vec3.hpp"
 #include "particle_solver/kernels/gas_impact_time.hpp"
+#include "particle_solver/kernels/reflecting_planes.hpp"
 #include "particle_solver/search/gas_cell_grid.hpp"
 #include "particle_solver/search/gas_near_map.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
@@ -46,10 +47,10 @@ struct Grain {
 };
 
 /// The earliest hit on a body's path. Order of the kinds has no meaning.
-enum class Hit : std::uint32_t { none, gas, unreleased, grain, mirror_x, mirror_y, sheet };
+enum class Hit : std::uint32_t { none, gas, unreleased, grain, plane, sheet };
 struct Choice {
   double time = no_impact;  // s
-  Index partner = nobody;   // body or grain
+  Index partner = nobody;   // body, grain or axis of the plane
   Hit kind = Hit::none;
 };
 
@@ -60,7 +61,7 @@ struct Work {
   std::uint64_t seed = 0;
   std::uint32_t step = 0;
   int round = 0, threads = 1;
-  bool mirrors = false;
+  ReflectingPlanes planes;
   SurfaceSheet* sheet = nullptr;
 
   // bodies, by place

@@ -11,8 +11,12 @@
 namespace standoff::particles {
 namespace {
 
+bool closed_box(const CaseSpec& spec) {
+  return spec.domain.boundaries == "reflecting";
+}
+
 BoundaryOptions boundary_options(const CaseSpec& spec, int threads) {
-  return {spec.domain.lower, spec.domain.upper, spec.run.quarter_symmetry, threads};
+  return {spec.domain.lower, spec.domain.upper, spec.run.quarter_symmetry, threads, closed_box(spec)};
 }
 
 GasCollideOptions gas_options(const CaseSpec& spec, int threads) {
@@ -20,6 +24,7 @@ GasCollideOptions gas_options(const CaseSpec& spec, int threads) {
   options.internal_energy = spec.effect("internal_energy");
   options.seed = spec.run.seed;
   options.mirrors.on = spec.run.quarter_symmetry;
+  options.walls = reflecting_planes(false, closed_box(spec), spec.domain.lower, spec.domain.upper);
   options.threads = threads;
   return options;
 }
@@ -44,7 +49,8 @@ TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
   }
   if (scene.has_air) {
     air_collide_ = std::make_unique<AirCollide>(spec.run.seed, threads);
-    air_drift_ = std::make_unique<AirDrift>(spec.run.quarter_symmetry, threads);
+    air_drift_ = std::make_unique<AirDrift>(
+        reflecting_planes(spec.run.quarter_symmetry, closed_box(spec), spec.domain.lower, spec.domain.upper), threads);
     air_boundaries_ =
         std::make_unique<AirBoundaries>(AirBoundariesOptions{spec.run.seed, spec.effect("ambient_pressure")});
   }

@@ -31,7 +31,7 @@ inline std::unique_ptr<Air> air_in(const AirBox& box) {
 class AirLoop {
  public:
   AirLoop(Air& air, SurfaceSheet* sheet, Boundaries exits, int threads = 1)
-      : air_(air), sheet_(sheet), exits_(std::move(exits)), collide_(1, threads), drift_(false, threads) {}
+      : air_(air), sheet_(sheet), exits_(std::move(exits)), collide_(1, threads), drift_({}, threads) {}
   void wake_everything() {
     air_.cells.wake_all();
     edge_.run(air_, nullptr, nullptr, sheet_, exits_, books, 0.0, 0);

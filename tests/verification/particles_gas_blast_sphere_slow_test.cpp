@@ -61,7 +61,7 @@ void run_sphere(std::uint64_t seed, const std::vector<double>& times, At&& at) {
   options.mirrors.on = true, options.seed = seed;
   GasCollide collide(options);
   AirCollide air_collide(seed, 1);
-  AirDrift air_drift(true, 1);
+  AirDrift air_drift(reflecting_planes(true, false, {}, {}), 1);
   AirBoundaries edge(AirBoundariesOptions{seed, false});
   Boundaries exits({{0, 0, -outer}, {outer, outer, outer}, true, 1});
   BoundaryBooks books;
