@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <deque>
 #include <optional>
+#include <set>
 
 #include "coupling/broker/checkpoint_store.hpp"
 #include "coupling/broker/event_lines.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto tick = 50ms;
+constexpr double longest_farewell = 2.0;  // s; one that is frozen does not hold up the others' end
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -50,20 +52,36 @@ class BrokerLoop {
     while (!code_) {
       router_.wait(tick);
       // In this order, so that the last words of a peer that is gone are heard before its end is believed.
-      const std::vector<std::string> gone = router_.take_gone();
+      lost_ = router_.take_gone();
       while (auto arrival = router_.receive()) handle(read(std::move(*arrival)));
-      for (const std::string& address : gone) handle(Disconnected{address});
+      for (const std::string& address : lost_) handle(Disconnected{address});
       if (const double time = now(); time - ticked_ >= std::chrono::duration<double>(tick).count()) {
         ticked_ = time;
         handle(Tick{});
         if (const std::string reason = reason_to_end(); !reason.empty()) handle(Interrupted{reason});
       }
     }
+    see_off();
     if (state_.failure) std::fprintf(stderr, "standoff-broker: error: %s\n", first_cause(*state_.failure).c_str());
     return static_cast<int>(*code_);
   }
 
  private:
+  /// After a failure the others may still be writing: once they have gone, what is unfinished is removed.
+  void see_off() {
+    if (!state_.failure || !checkpoints_) return;
+    std::set<std::string> here;
+    for (const Peer& peer : state_.peers)
+      if (peer.stage != Stage::closed) here.insert(peer.address);
+    for (const double end = now() + longest_farewell; !here.empty() && now() < end;) {
+      for (const std::string& address : lost_) here.erase(address);
+      lost_ = router_.take_gone();
+      while (router_.receive()) continue;
+      if (lost_.empty()) router_.wait(tick);
+    }
+    checkpoints_->sweep();
+  }
+
   SessionEvent read(Router::Arrival arrival) {
     try {
       Parcel parcel = decode(std::move(arrival.frames));
@@ -157,6 +175,7 @@ class BrokerLoop {
   std::optional<CheckpointStore> checkpoints_;
   std::optional<TapeWriter> tape_;
   std::optional<double> tape_begun_;
+  std::vector<std::string> lost_;  // addresses that have just gone
   double ticked_ = 0.0;
   std::optional<ExitCode> code_;
 };

@@ -97,6 +97,10 @@ std::string folder_of(const std::string& base, std::int64_t windows) {
 
 CheckpointStore::CheckpointStore(std::string folder, std::string build)
     : folder_(std::move(folder)), build_(std::move(build)) {
+  sweep();
+}
+
+void CheckpointStore::sweep() const {
   std::error_code ignored;
   for (const auto& entry : files::directory_iterator(folder_, ignored))
     if (entry.path().extension() == ".part") files::remove_all(entry.path(), ignored);

@@ -16,8 +16,10 @@ namespace standoff {
 
 class CheckpointStore {
  public:
-  /// Removes what an earlier run left unfinished in `folder`. `build` names the program and goes into checkpoint.json.
+  /// `build` names the program and goes into checkpoint.json. Sweeps.
   CheckpointStore(std::string folder, std::string build);
+  /// Removes what was left unfinished.
+  void sweep() const;
   /// Adds the broker's half, makes the checkpoint count, and removes all but the last two. Throws
   /// Stop(out_of_resources); the earlier ones are untouched then.
   void commit(const InterfaceState& state);

@@ -94,7 +94,15 @@ void notices_a_frozen_broker(Play& play) {
 void interrupted_by(Play& play, int number) {
   on_the_way(play);
   play.peer.signal(number);
-  expect_abort(play, ExitCode::interrupted);
+  const auto heard = play.peer.hear(bound);
+  const auto* stop = heard ? std::get_if<message::StopWindows>(&heard->body) : nullptr;
+  const auto* abort = heard ? std::get_if<message::Abort>(&heard->body) : nullptr;
+  if (stop != nullptr && stop->interrupted)  // it would save first
+    play.peer.say(message::Abort{"somebody", ExitCode::interrupted, stop->reason, 1});
+  else if (abort == nullptr || abort->code != ExitCode::interrupted)
+    throw RuleBroken(fmt::format("ABORT with code 130 was due, or STOP with `interrupted`; it sent {}",
+                                 heard ? message_name(heard->body) : "nothing"));
+  expect_end(play, ExitCode::interrupted);
 }
 
 /// What the other side may get wrong in a GRANT.

@@ -126,6 +126,11 @@ void Link::fail(message::Abort failure) noexcept {
   }
 }
 
+std::optional<message::Abort> Link::failure() {
+  const std::lock_guard guard(mutex_);
+  return failure_;
+}
+
 void Link::close() {
   const std::lock_guard guard(mutex_);
   closed_ = true;
@@ -155,8 +160,7 @@ void Link::pump() {
   const bool lost = dealer_.lost();  // believed only when everything that came before it has been read
   while (auto frames = dealer_.receive()) take(std::move(*frames));
   const auto now = Clock::now();
-  if (const std::string reason = reason_to_end(); !reason.empty())
-    note_failure({options_.name, ExitCode::interrupted, reason, window_}, true);
+  check_signals();
   if (lost && !(inbox_.size() == 1 && std::holds_alternative<message::ByeAck>(inbox_.front().body)))
     note_failure({"broker", ExitCode::participant_lost, "the process ended without a goodbye", -1}, false);
   check_silence(now);
@@ -167,6 +171,17 @@ void Link::pump() {
     held_back_.reset();
   }
   if (seconds(now - last_sent_) >= beat_interval_) post(message::Beat{progress_});
+}
+
+void Link::check_signals() {
+  if (is_saving()) return;
+  const std::string reason = reason_to_end();
+  if (reason.empty()) return;
+  if (between_windows_ && options_.keeps) set_saving();  // without effect unless it was a signal
+  if (is_saving())
+    post(message::StopWindows{0, reason, true});
+  else
+    note_failure({options_.name, ExitCode::interrupted, reason, window_}, true);
 }
 
 void Link::check_silence(Clock::time_point now) {

@@ -36,8 +36,11 @@ class Link {
   /// The solver has moved. Throws Stop if the run has failed.
   void moved();
   void set_window(std::int64_t window) { window_ = window; }
+  /// From START to the last window: a signal then asks the broker to save first, if this side can.
+  void set_between_windows(bool yes) { between_windows_ = yes; }
   /// The first failure, told to everyone; later ones are consequences and are dropped.
   void fail(message::Abort failure) noexcept;
+  std::optional<message::Abort> failure();
   /// BYE_ACK is in: silence is no longer a failure.
   void close();
   std::int64_t bytes() const { return bytes_; }
@@ -52,6 +55,7 @@ class Link {
   void take(Frames frames);
   void post(const Message& body, const Payload* payload = nullptr);
   void check_silence(Clock::time_point now);
+  void check_signals();
   void note_failure(message::Abort failure, bool tell);
   void throw_if_failed();
 
@@ -62,6 +66,7 @@ class Link {
   std::optional<message::Abort> failure_;
   std::atomic<bool> failed_{false};
   bool told_ = false, closed_ = false, welcome_ = false;
+  std::atomic<bool> between_windows_{false};
   std::uint32_t epoch_ = 0;
   std::uint64_t sent_ = 0, received_ = 0;
   std::atomic<std::uint64_t> progress_{0};

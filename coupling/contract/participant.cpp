@@ -141,6 +141,7 @@ CouplingClock Participant::ready(const WindowNeeds& needs) {
   const Parcel parcel = my.await({kind<message::Start>()});
   const auto& start = std::get<message::Start>(parcel.body);
   if (start.clock.first > 0) my.take_up(start);
+  my.link.set_between_windows(true);
   if (my.trace) my.trace->begin(my.stages);
   return start.clock;
 }
@@ -173,6 +174,7 @@ std::optional<Grant> Participant::next() {
   const auto* granted = std::get_if<message::Grant>(&parcel.body);
   if (granted == nullptr) {
     my.ended = true;
+    my.link.set_between_windows(false);
     return std::nullopt;
   }
   Grant grant;
@@ -259,6 +261,10 @@ void Participant::abort(int exit_code, const std::string& reason) noexcept {
   } catch (...) {
     // Out of memory for two strings: the broker sees the connection end.
   }
+}
+
+void Participant::throw_first_cause() const {
+  if (const auto failure = impl_->link.failure()) throw Stop(failure->code, first_cause(*failure));
 }
 
 Participant::Times Participant::times() const {

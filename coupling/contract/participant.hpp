@@ -103,6 +103,8 @@ class Participant {
   void finish(const std::string& report_json);
   /// Tells everyone the first cause; never throws.
   void abort(int exit_code, const std::string& reason) noexcept;
+  /// Throws Stop with the first cause, if the run has failed: a failure of our own may be the consequence of another.
+  void throw_first_cause() const;
 
   /// Wall-clock seconds this side computed, waited for the peer, and spent in exchange; bytes both ways.
   struct Times {

@@ -38,6 +38,9 @@ class LastResort {
     while ((reason = reason_to_end()).empty())
       if (sleep(100ms)) return;
     if (sleep(4s)) return;
+    // The broker ends an interrupted run after some 25 s at the latest (Deadlines::save), saved or not.
+    for (int i = 0; i < 300 && is_saving(); ++i)
+      if (sleep(100ms)) return;
     std::fprintf(stderr, "%s: error: %s\n", program_.c_str(), reason.c_str());
     _exit(static_cast<int>(ExitCode::interrupted));
   }
@@ -87,6 +90,7 @@ void with_link(const ParticipantOptions& options, const std::function<void(Parti
   } catch (...) {
     const auto [code, text] = current_failure();
     link.abort(static_cast<int>(code), text);
+    link.throw_first_cause();
     throw;
   }
 }

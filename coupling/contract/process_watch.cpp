@@ -11,6 +11,7 @@ namespace {
 
 volatile sig_atomic_t noted_signal = 0;
 std::atomic<pid_t> parent{0};  // 0: not watched
+std::atomic<bool> saving{false};
 
 extern "C" void note_signal(int number) {
   if (noted_signal == 0) noted_signal = number;
@@ -33,6 +34,14 @@ void watch_process() {
 void reuse_large_blocks() {
   mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
+}
+
+bool is_saving() {
+  return saving;
+}
+
+void set_saving() {
+  if (noted_signal != 0) saving = true;
 }
 
 std::string reason_to_end() {

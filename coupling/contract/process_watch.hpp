@@ -16,4 +16,8 @@ void reuse_large_blocks();
 /// Empty while there is no reason; otherwise a sentence. Costs a system call.
 std::string reason_to_end();
 
+/// A signal asks for the end; the run is being saved first and ends by itself.
+bool is_saving();
+void set_saving();
+
 }  // namespace standoff

@@ -92,6 +92,7 @@ struct Advance {
 struct StopWindows {
   std::int64_t windows = 0;
   std::string reason;
+  bool interrupted = false;  // a signal: save first where that is possible, then end with 130
 };
 struct Beat {
   std::uint64_t progress = 0;

@@ -114,7 +114,7 @@ struct Happened {
               peer);
   }
   void operator()(const Tick&) { watch(turn); }
-  void operator()(const Interrupted& event) { interrupt(turn, event.reason); }
+  void operator()(const Interrupted& event) { interrupt(turn, "broker", event.reason); }
   void operator()(const Committed&) { take_committed(turn); }
   void operator()(const DiskFailed& event) { turn.fail({"broker", ExitCode::out_of_resources, event.reason, -1}); }
 };

@@ -106,8 +106,10 @@ struct SessionState {
   double phase_since = 0.0, last_tick = 0.0, last_notice = 0.0, last_checkpoint = 0.0;
   std::int64_t checkpoint = -1;  // windows done at the last one, -1: none
   std::string stop_reason;       // interrupted: save at the next window's end, then stop
+  std::string stop_origin;       // who was
   double stop_since = 0.0;
   std::optional<message::Abort> failure;
+  std::string turned_away;  // the last that was rejected, and why: the likely cause if someone is missing
   bool over = false;
 };
 

@@ -34,7 +34,10 @@ bool in_windows(const SessionState& state) {
 void stop_now(SessionTurn& turn) {
   std::string reason = turn.state.stop_reason;
   if (turn.state.checkpoint > 0) reason += fmt::format("; a checkpoint holds {} windows", turn.state.checkpoint);
-  turn.fail({"broker", ExitCode::interrupted, reason, -1});
+  const std::string& origin = turn.state.stop_origin;
+  const auto peer = std::find_if(turn.state.peers.begin(), turn.state.peers.end(),
+                                 [&](const Peer& p) { return p.name == origin; });
+  turn.fail({origin, ExitCode::interrupted, reason, peer == turn.state.peers.end() ? -1 : peer->window});
 }
 
 }  // namespace
@@ -96,10 +99,11 @@ void take_committed(SessionTurn& turn) {
     stop_now(turn);
 }
 
-void interrupt(SessionTurn& turn, const std::string& reason) {
+void interrupt(SessionTurn& turn, const std::string& origin, const std::string& reason) {
   SessionState& state = turn.state;
   if (state.stop_reason.empty()) {
     state.stop_reason = reason;
+    state.stop_origin = origin;
     state.stop_since = turn.now;
     if (can_save(state) && in_windows(state)) return turn.announce(announce::Saving{reason});
     return stop_now(turn);

@@ -31,7 +31,7 @@ constexpr std::array<std::uint32_t, stage_count> legal = {
     /* computing */ telling | set<Advance, StopWindows>(),
     /* waiting   */ telling | set<StopWindows>(),
     /* saving    */ telling | set<StopWindows, Saved>(),
-    /* finishing */ telling | set<Report, Bye>(),
+    /* finishing */ telling | set<StopWindows, Report, Bye>(),  // STOP may cross ours
     /* closed    */ set<Beat>(),  // one that crossed our BYE_ACK
 };
 

@@ -45,6 +45,7 @@ void SessionTurn::reject(const std::string& address, const std::string& name, Ex
   Envelope envelope{"", 0, 1, "broker", -1};
   actions.emplace_back(Send{address, std::move(envelope), message::Reject{code, reason, remedy}, nullptr});
   announce(announce::Rejected{name, reason});
+  state.turned_away = fmt::format("\"{}\" was turned away, {}; {}", name, reason, remedy);
 }
 
 Peer* SessionTurn::at(const std::string& address) {

@@ -41,7 +41,7 @@ void go_on(SessionTurn& turn);
 /// True if the sides were asked to save before window `next` is begun.
 bool begin_checkpoint(SessionTurn& turn, std::int64_t next);
 /// A signal: save first where that is possible.
-void interrupt(SessionTurn& turn, const std::string& reason);
+void interrupt(SessionTurn& turn, const std::string& origin, const std::string& reason);
 void watch(SessionTurn& turn);
 
 }  // namespace standoff

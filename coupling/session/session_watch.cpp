@@ -51,9 +51,10 @@ void check_deadlines(SessionTurn& turn) {
   const std::vector<std::string> missing = missing_names(state);
   if (!missing.empty() && turn.now - state.phase_since > limit.join)
     return turn.fail({"broker", ExitCode::participant_lost,
-                      fmt::format("\"{}\" did not join within {:g} s: see its own messages, or start it with the "
-                                  "endpoint and token of this broker",
-                                  missing.front(), limit.join),
+                      fmt::format("\"{}\" did not join within {:g} s: {}", missing.front(), limit.join,
+                                  state.turned_away.empty() ? "see its own messages, or start it with the endpoint and "
+                                                              "token of this broker"
+                                                            : state.turned_away),
                       -1});
   for (const Peer& peer : state.peers) {
     if (peer.stage == Stage::closed) continue;
@@ -101,7 +102,7 @@ void watch(SessionTurn& turn) {
   forgive_own_pause(turn);
   check_deadlines(turn);
   if (turn.state.over) return;
-  if (!turn.state.stop_reason.empty()) interrupt(turn, turn.state.stop_reason);
+  if (!turn.state.stop_reason.empty()) interrupt(turn, turn.state.stop_origin, turn.state.stop_reason);
   if (turn.state.over) return;
   notice_waiting(turn);
   for (Peer& peer : turn.state.peers)

@@ -88,6 +88,7 @@ void take_advance(SessionTurn& turn, Peer& peer, const Received& received) {
 }
 
 void take_stop(SessionTurn& turn, Peer& peer, const message::StopWindows& stop) {
+  if (stop.interrupted) return interrupt(turn, peer.name, stop.reason);
   CouplingClock& clock = turn.state.clock;
   std::int64_t granted = 0;
   for (const Peer& each : turn.state.peers) granted = std::max(granted, each.window + 1);

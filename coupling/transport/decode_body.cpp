@@ -94,7 +94,7 @@ Message get_body(const wire::Envelope& from) {
     case wire::Envelope::kAdvance:
       return advance(from.advance());
     case wire::Envelope::kStop:
-      return message::StopWindows{from.stop().windows(), from.stop().reason()};
+      return message::StopWindows{from.stop().windows(), from.stop().reason(), from.stop().interrupted()};
     case wire::Envelope::kBeat:
       return message::Beat{from.beat().progress()};
     case wire::Envelope::kAbort:

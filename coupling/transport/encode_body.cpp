@@ -77,6 +77,7 @@ struct Put {
   void operator()(const message::StopWindows& body) {
     to.mutable_stop()->set_windows(body.windows);
     to.mutable_stop()->set_reason(body.reason);
+    to.mutable_stop()->set_interrupted(body.interrupted);
   }
   void operator()(const message::Beat& body) { to.mutable_beat()->set_progress(body.progress); }
   void operator()(const message::Abort& body) {
