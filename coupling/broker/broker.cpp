@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr auto tick = 50ms;
-constexpr double longest_farewell = 2.0;  // s; one that is frozen does not hold up the others' end
+constexpr double longest_farewell = 1.0;  // s; one that is frozen does not hold up the others' end
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

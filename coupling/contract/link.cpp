@@ -15,6 +15,7 @@ using namespace std::chrono_literals;
 constexpr auto slice = 100ms;   // how long anything may go unnoticed
 constexpr auto own_pause = 1s;  // a process that was itself stopped for longer blames nobody for that time
 constexpr auto send_timeout = 2s;
+constexpr auto verdict_timeout = 500ms;
 constexpr auto show_interval = 100ms;
 
 double seconds(std::chrono::steady_clock::duration d) {
@@ -119,7 +120,10 @@ void Link::fail(message::Abort failure) noexcept {
     const std::lock_guard guard(mutex_);
     dealer_.look();
     while (auto frames = dealer_.receive()) take(std::move(*frames));  // an earlier cause may be on its way
-    note_failure(std::move(failure), true);
+    if (!failure_ && !closed_) {
+      note_failure(std::move(failure), true);
+      hear_verdict();
+    }
     told_ = true;
   } catch (...) {
     // Nothing more can be done: the broker sees the connection end.
@@ -129,6 +133,18 @@ void Link::fail(message::Abort failure) noexcept {
 std::optional<message::Abort> Link::failure() {
   const std::lock_guard guard(mutex_);
   return failure_;
+}
+
+void Link::hear_verdict() {
+  const auto until = Clock::now() + verdict_timeout;
+  while (welcome_ && !dealer_.lost() && Clock::now() < until) {
+    dealer_.wait(slice);
+    dealer_.look();
+    while (auto frames = dealer_.receive()) {
+      const Parcel parcel = decode(std::move(*frames));
+      if (const auto* abort = std::get_if<message::Abort>(&parcel.body)) return void(failure_ = *abort);
+    }
+  }
 }
 
 void Link::close() {

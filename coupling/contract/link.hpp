@@ -56,6 +56,8 @@ class Link {
   void post(const Message& body, const Payload* payload = nullptr);
   void check_silence(Clock::time_point now);
   void check_signals();
+  /// The broker answers our ABORT with the first failure: ours, or one that was faster.
+  void hear_verdict();
   void note_failure(message::Abort failure, bool tell);
   void throw_if_failed();
 

@@ -48,13 +48,16 @@ struct Participant::Impl {
   [[noreturn]] void refuse(const std::string& what, const ProtocolError& error) {
     const message::Abort failure{"broker", ExitCode::participant_lost, fmt::format("{}: {}", what, error.what()),
                                  window};
-    link.fail(failure);
-    throw Stop(failure.code, first_cause(failure));
+    fail(failure);
   }
   [[noreturn]] void stop_by_guard(const std::string& reason) {
     const message::Abort failure{options.name, ExitCode::guard, reason, window};
+    fail(failure);
+  }
+  [[noreturn]] void fail(const message::Abort& failure) {
     link.fail(failure);
-    throw Stop(failure.code, first_cause(failure));
+    const message::Abort first = link.failure().value_or(failure);
+    throw Stop(first.code, first_cause(first));
   }
   Parcel await(std::initializer_list<std::size_t> kinds) {
     link.moved();

@@ -59,7 +59,7 @@ struct Dispatch {
   void operator()(const message::Abort& body) {
     message::Abort failure = body;
     if (failure.origin.empty()) failure.origin = peer.name;
-    turn.fail(std::move(failure), &peer);
+    turn.fail(std::move(failure));  // told to its sender too: that this was the first
   }
   void operator()(const message::Bye&) { take_bye(turn, peer); }
   void operator()(const message::Progress& body) {

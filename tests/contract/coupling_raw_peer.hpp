@@ -4,11 +4,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include <standoff/wire/envelope.pb.h>
 #include <unistd.h>
 
 #include "coupling/transport/codec.hpp"
 #include "coupling/transport/dealer.hpp"
+#include "tests/contract/coupling_chaos_proxy.hpp"
 #include "tests/contract/coupling_harness.hpp"
 
 namespace standoff::test {
@@ -56,14 +56,5 @@ class RawPeer {
   std::uint64_t sent_ = 0;
   std::int64_t window_ = -1;
 };
-
-/// Parses the envelope, lets `edit` change it, and puts it back.
-inline void edit_envelope(Frames& frames, const std::function<void(wire::Envelope&)>& edit) {
-  wire::Envelope envelope;
-  envelope.ParseFromArray(frames[0].data(), static_cast<int>(frames[0].size()));
-  edit(envelope);
-  const std::string text = envelope.SerializeAsString();
-  frames[0] = zmq::message_t(text.data(), text.size());
-}
 
 }  // namespace standoff::test

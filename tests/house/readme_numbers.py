@@ -8,6 +8,7 @@ A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- e
 
     result RUN                  one run beside the figures of the case's reference.toml, with its certificate
     cell   CELL ...             folders of `standoff cell`: packing of each, then modulus and lateral stress against strain
+    faults FAULTS.csv SOAK.csv  the table of faults with how often each was done and how long the longest took
     cost   STUDY/cost.csv ...   a row per level of each study, with its name: mean and spread over seeds, seconds
 
 RUN, CELL and STUDY are folders runs/CASE/NAME. They are not committed: what a block needs is kept in the folder of the case, run.json,
@@ -185,7 +186,18 @@ def cell(*copies):
     return table(packed) + "\n" + table(rows) + "\nMean ± standard deviation over cells; residual stress subtracted.\n"
 
 
-COMMANDS = {"result": result, "cell": cell, "cost": cost}
+def faults(listed, soaked):
+    cells = lambda path: [line.split("|") for line in path.read_text().splitlines() if not line.startswith("#")][1:]
+    done = {name: row for name, *row in cells(soaked)}
+    rows = [["fault", "of", "when", "exit", "first cause that everyone prints", "passed", "longest s"]]
+    for name, who, when, what, code, cause, *_ in cells(listed):
+        passed, failed, skipped, longest = done.get(name, ["0", "0", "0", ""])
+        times = f"{passed} of {int(passed) + int(failed)}" + (f", {skipped} skipped" if skipped != "0" else "")
+        rows.append([name, who, f"{when.removesuffix(' -1')}: {what}", code, re.sub(r" *\* *", " … ", cause.removeprefix("first cause: ")), times, longest])
+    return table(rows)
+
+
+COMMANDS = {"faults": faults, "result": result, "cell": cell, "cost": cost}
 
 
 def block_text(match):

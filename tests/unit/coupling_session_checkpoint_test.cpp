@@ -102,6 +102,17 @@ TEST_P(Checkpoints, Interrupted_TheRunSavesAtTheEndOfTheWindowAndStops) {
 INSTANTIATE_TEST_SUITE_P(Coupling, Checkpoints, testing::Bool(),
                          [](const auto& given) { return given.param ? "parallel" : "serial"; });
 
+TEST(Checkpoint, OneSideInterrupted_TheRunSavesAndNamesIt) {
+  VirtualSession run(saving_rules(true, 0.0, 0));
+  run.start();
+  run.say("structure", message::StopWindows{0, "interrupted by SIGTERM", true});
+  EXPECT_EQ(run.announced<announce::Saving>().size(), 1u);
+  both_advance(run, 0);
+  both_save(run, 1), run.happen(Committed{});
+  EXPECT_EQ(run.finished(), std::vector<int>{130});
+  EXPECT_EQ(run.cause(), "first cause: structure, window 0: interrupted by SIGTERM; a checkpoint holds 1 windows");
+}
+
 TEST(Checkpoint, InterruptedButAWindowTakesTooLong_TheRunStopsWithoutIt) {
   VirtualSession run(saving_rules(true, 0.0, 0));
   run.start();
