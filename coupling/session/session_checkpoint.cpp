@@ -35,8 +35,8 @@ void stop_now(SessionTurn& turn) {
   std::string reason = turn.state.stop_reason;
   if (turn.state.checkpoint > 0) reason += fmt::format("; a checkpoint holds {} windows", turn.state.checkpoint);
   const std::string& origin = turn.state.stop_origin;
-  const auto peer = std::find_if(turn.state.peers.begin(), turn.state.peers.end(),
-                                 [&](const Peer& p) { return p.name == origin; });
+  const auto peer =
+      std::find_if(turn.state.peers.begin(), turn.state.peers.end(), [&](const Peer& p) { return p.name == origin; });
   turn.fail({origin, ExitCode::interrupted, reason, peer == turn.state.peers.end() ? -1 : peer->window});
 }
 

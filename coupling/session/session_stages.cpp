@@ -32,7 +32,7 @@ constexpr std::array<std::uint32_t, stage_count> legal = {
     /* waiting   */ telling | set<StopWindows>(),
     /* saving    */ telling | set<StopWindows, Saved>(),
     /* finishing */ telling | set<StopWindows, Report, Bye>(),  // STOP may cross ours
-    /* closed    */ set<Beat>(),  // one that crossed our BYE_ACK
+    /* closed    */ set<Beat>(),                                // one that crossed our BYE_ACK
 };
 
 }  // namespace
