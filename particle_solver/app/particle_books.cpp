@@ -114,6 +114,7 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
   counts["particle_steps"] = totals.particle_steps;
   counts["slipped_below_the_surface"] = loop_.boundary_totals().slipped;
   counts["deferred_hits"] = totals.deferred_hits;
+  if (spec_.effect("hard_core")) counts["hard_core_hits"] = totals.hard_core_hits;
   auto& timing = j["timing"]["particle"];
   timing = {{"compute_s", times.compute}, {"wait_s", times.wait}, {"exchange_s", times.exchange}};
   for (const auto& row : loop_.timers().rows()) timing["stages"][row.name] = row.seconds;

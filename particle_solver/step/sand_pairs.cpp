@@ -45,6 +45,7 @@ struct SandPairs::Impl {
   void make_lists(const SandState& sand, std::span<const Vec3> list_position);
   PassInput pass_input(double dt) const;
   void run_blocks(SandState& sand, double dt);
+  void deep_in_block(const GrainBlock& block, double share, std::vector<DeepContact>& found) const;
   void close_books(const std::vector<PassSums>& sums, double dt, std::size_t count);
 
   SandPairsOptions options;
@@ -57,8 +58,9 @@ struct SandPairs::Impl {
   std::vector<GrainRecord> grains, moves, old_moves;  // sorted order
   std::vector<Vec3> list_position;                    // sorted order, where the list was made
   std::vector<PassScratch> scratch;                   // one a thread
+  std::vector<double> block_overlap;                  // m, largest in each block at the last call
   bool radii = false, ready = false;
-  double mean_radius = 0.0, largest_radius = 0.0, lightest = 0.0, skin = 0.0;
+  double mean_radius = 0.0, largest_radius = 0.0, smallest_radius = 0.0, lightest = 0.0, skin = 0.0;
   long calls_since_list = 0;
   Vec3 mirror_force;
   SandBooks books;
@@ -119,9 +121,10 @@ void SandPairs::Impl::measure(const SandState& sand) {
   if (sand.velocity.size() != count || sand.id.size() != count || sand.force.size() != count)
     throw Stop(ExitCode::guard, "sand: position, velocity, force and id must have one entry per grain");
   radii = !sand.grain_radius.empty() || !sand.grain_mass.empty();
-  mean_radius = sand.radius, largest_radius = sand.radius, lightest = sand.mass;
+  mean_radius = largest_radius = smallest_radius = sand.radius, lightest = sand.mass;
   for (std::size_t i = 0; radii && i < count; ++i) {
     largest_radius = std::max(i == 0 ? 0.0 : largest_radius, sand.radius_of(i));
+    smallest_radius = i == 0 ? sand.radius_of(i) : std::min(smallest_radius, sand.radius_of(i));
     lightest = i == 0 ? sand.mass_of(i) : std::min(lightest, sand.mass_of(i));
   }
   if (!(options.law.stiffness > 0.0) || !(mean_radius > 0.0) || !(lightest > 0.0))
@@ -208,7 +211,28 @@ void SandPairs::Impl::run_blocks(SandState& sand, double dt) {
       sum.touching += f.w, sum.most_touching = std::max(sum.most_touching, f.w);
     }
   }
+  block_overlap.resize(sums.size());
+  std::transform(sums.begin(), sums.end(), block_overlap.begin(), [](const PassSums& s) { return s.largest_overlap; });
   close_books(sums, dt, sand.size());
+}
+
+/// A rim pair is listed by two blocks: the one that holds the smaller index reports it.
+void SandPairs::Impl::deep_in_block(const GrainBlock& block, double share, std::vector<DeepContact>& found) const {
+  const auto& order = cells.order();
+  for (const PairList* list : {&block.inner, &block.rim})
+    for (std::size_t p = 0; p < list->count; ++p) {
+      const auto [i, j] = list->pairs[p];
+      if (i > j) continue;
+      const GrainRecord &a = grains[i], &b = grains[j];
+      const double core = share * (a.w + b.w);
+      if (squared_norm(Vec3{a.x - b.x, a.y - b.y, a.z - b.z}) < core * core)
+        found.push_back({order[i], order[j], DeepContact::With::grain});
+    }
+  for (std::uint32_t i = block.begin; options.mirrors.on && i < block.end; ++i) {
+    const GrainRecord& grain = grains[i];
+    if (grain.x < share * grain.w) found.push_back({order[i], order[i], DeepContact::With::image_x});
+    if (grain.y < share * grain.w) found.push_back({order[i], order[i], DeepContact::With::image_y});
+  }
 }
 
 void SandPairs::Impl::close_books(const std::vector<PassSums>& sums, double dt, std::size_t count) {
@@ -263,6 +287,20 @@ double SandPairs::stable_step() const {
   const double row_sum = impl_->options.law.stiffness * std::max(1, impl_->books.most_contacts);
   return std::min(recommended_step(impl_->options.law, impl_->lightest),
                   0.25 * std::sqrt(2.0 * impl_->lightest / row_sum));
+}
+
+void SandPairs::deep_contacts(double share, std::vector<DeepContact>& contacts) const {
+  const Impl& my = *impl_;
+  const auto count = static_cast<int>(my.blocks.size());
+  std::vector<std::vector<DeepContact>> found(my.blocks.size());
+  const double shallow = (1.0 - share) * 2.0 * my.smallest_radius;  // overlaps below are outside of every core
+#pragma omp parallel for schedule(dynamic, 1) num_threads(my.options.threads)
+  for (int b = 0; b < count; ++b) {
+    const auto block = static_cast<std::size_t>(b);
+    if (my.block_overlap[block] > shallow) my.deep_in_block(my.blocks[block], share, found[block]);
+  }
+  contacts.clear();
+  for (const auto& part : found) contacts.insert(contacts.end(), part.begin(), part.end());
 }
 
 void SandPairs::set_box(const Vec3& box) {

@@ -69,6 +69,13 @@ struct SandPairsMemory {
   }
 };
 
+/// A contact deeper than asked for, by indices of SandState: two grains, or a grain and its image in a mirror plane.
+struct DeepContact {
+  enum class With : std::uint8_t { grain, image_x, image_y };
+  std::uint32_t i = 0, j = 0;  // j = i for an image
+  With with = With::grain;
+};
+
 class SandPairs {
  public:
   explicit SandPairs(const SandPairsOptions& options);
@@ -83,6 +90,9 @@ class SandPairs {
   /// Step for the present coordination [s]: recommended_step, and at most a quarter of the bound sqrt(2 m / (z k)) for
   /// the grain with most contacts (it binds above z = 12). Call after forces().
   double stable_step() const;
+  /// Contacts at the positions of the last call of forces() whose centres are nearer than `share` of their reach, in an
+  /// order that does not depend on threads. Looks only where that call met one. Not for periodic cells.
+  void deep_contacts(double share, std::vector<DeepContact>& contacts) const;
   /// Changes the lengths of the periodic box; grains keep their positions.
   void set_box(const Vec3& box);
 

@@ -46,6 +46,7 @@ TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
     pairs_ = std::make_unique<SandPairs>(*scene.sand_law);
     pairs_->forces(scene.sand, 0.0);
     contact_ = std::make_unique<SurfaceContact>(surface_contact_options(spec, scene.sand_law->law.stiffness, threads));
+    if (spec.effect("hard_core")) hard_core_ = std::make_unique<HardCore>();
   }
   if (scene.has_air) {
     air_collide_ = std::make_unique<AirCollide>(spec.run.seed, threads);
@@ -111,6 +112,12 @@ void TimeLoop::compose() {
     add(end_step_, "sand_pairs", [this](double, double h) { pairs_->forces(scene_.sand, h); });
     add(end_step_, "sand_integrate", kick);
   }
+  if (hard_core_)
+    add(end_step_, "hard_core", [this](double, double) {
+      const HardCoreCounts now = hard_core_->run(scene_.sand, *pairs_);
+      totals_.hard_core_hits += now.hits;
+      books_.mirror_impulse += now.mirror_impulse;
+    });
 }
 
 void TimeLoop::compose_air() {
@@ -133,7 +140,9 @@ void TimeLoop::compose_air() {
 }
 
 double TimeLoop::sand_step_limit() const {
-  return pairs_ ? pairs_->stable_step() : std::numeric_limits<double>::infinity();
+  if (!pairs_) return std::numeric_limits<double>::infinity();
+  const double step = pairs_->stable_step();
+  return hard_core_ ? std::min(step, HardCore::longest_step(scene_.sand)) : step;
 }
 
 double TimeLoop::stable_step() const {

@@ -3,7 +3,7 @@
 //
 //   one sand step dt                                                          one gas sub-step h = dt / n
 //   sand_integrate (half kick) -> surface_contact -> boundaries -> n x [ detonate -> gas_collide -> gas_drift ]
-//                  -> sand_pairs -> sand_integrate (half kick)
+//                  -> sand_pairs -> sand_integrate (half kick) -> hard_core
 // Air, where there is some, moves at the beginning of a window: air_collide -> air_drift -> air_boundaries.
 //
 // A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
@@ -21,6 +21,7 @@
 #include "particle_solver/step/air_drift.hpp"
 #include "particle_solver/step/boundaries.hpp"
 #include "particle_solver/step/gas_collide.hpp"
+#include "particle_solver/step/hard_core.hpp"
 #include "particle_solver/step/surface_contact.hpp"
 
 namespace standoff::particles {
@@ -34,14 +35,14 @@ struct LoopTotals {
   double contact_loss = 0.0;                     // J, grains on plate and cover
   double contact_elastic = 0.0;                  // J now, with the soil's own law at the plate
   double max_penetration_over_radius = 0.0;
-  long deferred_hits = 0;
+  long deferred_hits = 0, hard_core_hits = 0;
   double step = 0.0;       // s, the last
   std::string limited_by;  // what limited it
   template <class Archive>
   void archive(Archive& a) {
     a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, impulse_air, incoming, contact_loss,
       contact_elastic);
-    a(max_penetration_over_radius, deferred_hits, step, limited_by);
+    a(max_penetration_over_radius, deferred_hits, hard_core_hits, step, limited_by);
   }
 };
 
@@ -101,6 +102,7 @@ class TimeLoop {
   std::unique_ptr<GasCollide> gas_;
   std::unique_ptr<SandPairs> pairs_;
   std::unique_ptr<SurfaceContact> contact_;
+  std::unique_ptr<HardCore> hard_core_;
   std::unique_ptr<AirCollide> air_collide_;
   std::unique_ptr<AirDrift> air_drift_;
   std::unique_ptr<AirBoundaries> air_boundaries_;

@@ -44,6 +44,16 @@ TEST(Effects, FrictionAndDamping_FollowTheSoil) {
   EXPECT_EQ(bare({}, "friction").reason, "there is no sand");
 }
 
+TEST(Effects, HardCore_FollowsTheSpeedOfThrownGrains) {
+  // 15 mg of products at 2 sqrt(3.5 * 5.434 MJ/kg) = 8.72 km/s against 56.4 mg: 2 * 15/71.4 * 8.72 = 3.67 km/s; a pair
+  // at rest in its way is pressed by 8.60e-4 s/m * 3.67 km/s = 3.15 radii, see hard_core.
+  EXPECT_TRUE(dry({}, "hard_core").on);
+  EXPECT_THAT(dry({}, "hard_core").reason, HasSubstr("throw grains at 3.7 km/s: v (m/2k)^(1/2) is 3.2 radii"));
+  EXPECT_FALSE(dry({{"soil.stiffness", "40 GN/m"}}, "hard_core").on);
+  EXPECT_FALSE(dry({{"charge.particles", "1000000"}}, "hard_core").on) << "light products throw nothing";
+  EXPECT_FALSE(bare({}, "hard_core").on);
+}
+
 TEST(Effects, GasRules_FollowTheExplosive) {
   EXPECT_TRUE(bare({}, "internal_energy").on);
   EXPECT_THAT(bare({}, "internal_energy").reason, HasSubstr("60 % of the energy is motion"));  // 3 (1.4 - 1) / 2
