@@ -42,7 +42,7 @@ void run_particles(const CaseSpec& spec, const ParticleRunOptions& options, Part
   Every row(spec.observe.interval), frame(spec.run.until / static_cast<double>(std::max(1L, spec.observe.snapshots)));
   link.trace_stages(loop.timers());
   link.keep([&](auto& archive) { archive(loop, books, files, row, frame); });
-  const CouplingClock clock = link.ready({loop.stable_step(), window_limit(spec, scene)});
+  const CouplingClock clock = link.ready({std::min(loop.stable_step(), spec.run.until), window_limit(spec, scene)});
 
   Stopwatch since_progress;
   auto observe = [&](double time, long window) {

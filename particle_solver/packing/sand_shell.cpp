@@ -25,8 +25,10 @@ double shell_volume(const SoilSpec& soil) {
 }
 
 void check(const SoilSpec& soil, const ShellOptions& options) {
-  if (!(soil.outer_radius > soil.inner_radius) || soil.inner_radius < 0.0 || soil.particles < 4)
-    throw Stop(ExitCode::bad_case, "sand: the shell needs outer_radius > inner_radius >= 0 and at least 4 particles");
+  if (!(soil.outer_radius > soil.inner_radius) || soil.inner_radius < 0.0 || soil.particles < (options.quarter ? 4 : 1))
+    throw Stop(ExitCode::bad_case,
+               "sand: the shell needs outer_radius > inner_radius >= 0 and at least one grain in the simulated part: "
+               "particles >= 4 with quarter symmetry, >= 1 without");
   if (options.quarter && (options.centre.x != 0.0 || options.centre.y != 0.0))
     throw Stop(ExitCode::bad_case,
                "sand: with quarter symmetry the charge must be centred above the plate (x = y = 0); "

@@ -9,6 +9,7 @@ A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- e
     result RUN                  one run beside the figures of the case's reference.toml, with its certificate
     cell   CELL ...             folders of `standoff cell`: packing of each, then modulus and lateral stress against strain
     faults FAULTS.csv SOAK.csv  the table of faults with how often each was done and how long the longest took
+    hard   RESULTS.json         the hard cases: what is known of other codes, what ours does, figures of hard_cases.py --keep
     cost   STUDY/cost.csv ...   a row per level of each study, with its name: mean and spread over seeds, seconds
 
 RUN, CELL and STUDY are folders runs/CASE/NAME. They are not committed: what a block needs is kept in the folder of the case, run.json,
@@ -46,9 +47,10 @@ def show(name, value):
     return f"{value * factor:.{decimals}f}{text}"
 
 
-def table(rows):
+def table(rows, texts=1):
+    """The first `texts` columns are words, the others numbers."""
     lines = ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join([lines[0], "| --- " + "| ---: " * (len(rows[0]) - 1) + "|", *lines[1:]]) + "\n"
+    return "\n".join([lines[0], "| --- " * texts + "| ---: " * (len(rows[0]) - texts) + "|", *lines[1:]]) + "\n"
 
 
 def references(copy):
@@ -197,7 +199,23 @@ def faults(listed, soaked):
     return table(rows)
 
 
-COMMANDS = {"faults": faults, "result": result, "cell": cell, "cost": cost}
+HARD_FIGURES = [("energy_error_particles", "energy of the particles", "{:.1e}"), ("energy_error_structure", "energy of the plate", "{:.1e}"),
+                ("momentum_error", "momentum", "{:.0e}"), ("slipped_below_the_surface", "through the plate", "{:.0f}"),
+                ("max_overlap_over_radius", "largest overlap / radius", "{:.2f}")]
+
+
+def hard(copy):
+    rows = [["case", "known of other codes", "ours", "exit", *(title for _, title, _ in HARD_FIGURES)]]
+    for name, found in json.loads(copy.read_text()).items():
+        folder = copy.parent.parent / name
+        outcome = tomllib.loads((folder / "outcome.toml").read_text())
+        title = tomllib.loads((folder / "case.toml").read_text())["case"]["title"]
+        rows.append([f"[{title}]({name})", outcome["others"], outcome["ours"], str(outcome["exit"]),
+                     *(form.format(found[key]) if key in found else "" for key, _, form in HARD_FIGURES)])
+    return table(rows, texts=3)
+
+
+COMMANDS = {"faults": faults, "result": result, "cell": cell, "cost": cost, "hard": hard}
 
 
 def block_text(match):
