@@ -28,8 +28,9 @@ BatchSums batch_kernel(const MetalParameters& metal, const BoxGeometry& geometry
 
 template <class Law>
 KernelChoice choice_of() {
-  return {&batch_kernel<Law>,
-          {Law::fields, Law::strain_field, Law::temperature_field, Law::static_stress_field, Law::x_field}};
+  return {
+      &batch_kernel<Law>,
+      {Law::fields, Law::strain_field, Law::temperature_field, Law::static_stress_field, Law::x_field, Law::expansion}};
 }
 
 template <Hardening Hard, RateLaw Rate>

@@ -16,9 +16,10 @@ struct MetalEffects {
   bool heating = true, expansion = true;
 };
 
-/// Where a field lies in the history of a Gauss point; -1 is absent.
+/// Where a field lies in the history of a Gauss point; -1 is absent. And whether temperature strains.
 struct HistoryLayout {
   int fields = 0, strain = -1, temperature = -1, static_stress = -1, x = -1;
+  bool expansion = false;
 };
 
 struct BatchSums {

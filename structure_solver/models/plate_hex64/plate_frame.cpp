@@ -28,44 +28,114 @@ std::vector<Vec3> resample(const PlateMesh& mesh, std::vector<Vec3> values) {
   return values;
 }
 
+/// Volume means over the Gauss points of a cell.
 struct CellValues {
-  double mean_strain = 0.0, max_strain = 0.0, temperature = 0.0, von_mises = 0.0, thickness = 0.0;
+  double strain = 0.0, max_strain = 0.0, temperature = 0.0, strain_rate = 0.0, von_mises = 0.0, thickness = 0.0;
+  Sym3<double> stress{};
 };
 
-/// Volume means over the Gauss points; von Mises from the Cauchy stress, thickness as deformed volume over mid-plane
-/// area.
+using Nodal = double[3][hex_nodes];
+using Gradients = double[3][3][hex_points];
+
+void gradients_of(const PlateMesh& mesh, const std::vector<Vec3>& field, long e, Gradients& gradient) {
+  Nodal nodal;
+  for (int a = 0; a < hex_nodes; ++a) {
+    const Vec3& v = field[static_cast<std::size_t>(mesh.element_node(e, a))];
+    nodal[0][a] = v.x, nodal[1][a] = v.y, nodal[2][a] = v.z;
+  }
+  for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+}
+
+/// Cauchy stress: (2 G dev eps + K (tr eps - 3 alpha (T - Tr)) I) / J of the elastic logarithmic strain eps.
+Sym3<double> cauchy_stress(const InternalForce& forces, long e, int q, const Mat3<double>& h, double j) {
+  const HistoryLayout& layout = forces.layout();
+  Sym3<double> metric{};
+  if (layout.strain >= 0)
+    metric = {forces.history(e, q, 0), forces.history(e, q, 1), forces.history(e, q, 2),
+              forces.history(e, q, 3), forces.history(e, q, 4), forces.history(e, q, 5)};
+  const Sym3<double> twice = log_one_plus(elastic_left_cauchy_green(h, deformation_gradient(h), metric));
+  const MetalParameters& metal = forces.metal();
+  double volumetric = 0.5 * trace(twice);
+  const double mean = trace(twice) / 3.0, shear = metal.shear / j;
+  if (layout.expansion) volumetric -= metal.expansion * (forces.temperature(e, q) - metal.flow.room_temperature);
+  const double pressure = metal.bulk * volumetric / j;
+  return {shear * (twice.xx - mean) + pressure,
+          shear * (twice.yy - mean) + pressure,
+          shear * (twice.zz - mean) + pressure,
+          shear * twice.xy,
+          shear * twice.yz,
+          shear * twice.zx};
+}
+
+double von_mises(const Sym3<double>& s) {
+  const double mean = trace(s) / 3.0;
+  const Sym3<double> dev{s.xx - mean, s.yy - mean, s.zz - mean, s.xy, s.yz, s.zx};
+  return std::sqrt(1.5 * contract(dev, dev));
+}
+
+/// sqrt(2/3 dev D : dev D) of the rate of deformation D, the symmetric part of dH/dt F^-1.
+double equivalent_rate(const Mat3<double>& h_rate, const Mat3<double>& cofactor_of_f, double j) {
+  double l[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      l[i][k] = 0.0;
+      for (int d = 0; d < 3; ++d) l[i][k] += h_rate.m[i][d] * cofactor_of_f.m[k][d] / j;
+    }
+  const Sym3<double> rate{
+      l[0][0], l[1][1], l[2][2], 0.5 * (l[0][1] + l[1][0]), 0.5 * (l[1][2] + l[2][1]), 0.5 * (l[2][0] + l[0][2])};
+  return von_mises(rate) / 1.5;
+}
+
 CellValues cell_values(const PlateSolid& plate, long e) {
   const PlateMesh& mesh = plate.mesh();
   const InternalForce& forces = plate.forces();
   const BoxGeometry box = mesh.geometry();
-  double nodal[3][hex_nodes], gradient[3][3][hex_points];
-  for (int a = 0; a < hex_nodes; ++a) {
-    const Vec3& u = plate.state().u[static_cast<std::size_t>(mesh.element_node(e, a))];
-    nodal[0][a] = u.x, nodal[1][a] = u.y, nodal[2][a] = u.z;
-  }
-  for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+  Gradients moved, moving;
+  gradients_of(mesh, plate.state().u, e, moved);
+  gradients_of(mesh, plate.state().v, e, moving);
   CellValues v;
   for (int q = 0; q < hex_points; ++q) {
     const double share = box.weight(q) / box.volume;
-    const Mat3<double> h = box.reference_gradient(q, load_gradient(gradient, q));
-    const Mat3<double> f = deformation_gradient(h);
-    const Mat3<double> c = cofactor(f);
-    Sym3<double> metric{};
-    if (forces.layout().strain >= 0)
-      metric = {forces.history(e, q, 0), forces.history(e, q, 1), forces.history(e, q, 2),
-                forces.history(e, q, 3), forces.history(e, q, 4), forces.history(e, q, 5)};
-    Sym3<double> log = log_one_plus(elastic_left_cauchy_green(h, f, metric));  // twice the elastic strain
-    const double mean = trace(log) / 3.0, j = rows(f, 0, c, 0);
-    log.xx -= mean, log.yy -= mean, log.zz -= mean;
-    const double strain = forces.plastic_strain(e, q);
-    v.mean_strain += share * strain, v.max_strain = std::max(v.max_strain, strain);
+    const Mat3<double> h = box.reference_gradient(q, load_gradient(moved, q));
+    const Mat3<double> f = deformation_gradient(h), c = cofactor(f);
+    const double j = rows(f, 0, c, 0), strain = forces.plastic_strain(e, q);
+    const Sym3<double> s = cauchy_stress(forces, e, q, h, j);
+    v.strain += share * strain, v.max_strain = std::max(v.max_strain, strain);
     v.temperature += share * forces.temperature(e, q);
-    v.von_mises += share * forces.metal().shear * std::sqrt(1.5 * contract(log, log)) / j;
+    v.strain_rate += share * equivalent_rate(box.reference_gradient(q, load_gradient(moving, q)), c, j);
+    v.von_mises += share * von_mises(s);
+    v.stress.xx += share * s.xx, v.stress.yy += share * s.yy, v.stress.zz += share * s.zz;
+    v.stress.xy += share * s.xy, v.stress.yz += share * s.yz, v.stress.zx += share * s.zx;
     // Height of the deformed element over its reference mid-plane: 1 / |F^-T e_z|.
     v.thickness +=
         share * mesh.edge.z * j / std::sqrt(c.m[0][2] * c.m[0][2] + c.m[1][2] * c.m[1][2] + c.m[2][2] * c.m[2][2]);
   }
   return v;
+}
+
+struct Column {
+  const char* name;
+  double (*of)(const CellValues&);
+};
+
+/// What the scene's effects leave to be shown.
+std::vector<Column> columns(const HistoryLayout& layout) {
+  std::vector<Column> list;
+  if (layout.strain >= 0) {
+    list.push_back({"plastic_strain", [](const CellValues& v) { return v.strain; }});
+    list.push_back({"plastic_strain_max", [](const CellValues& v) { return v.max_strain; }});
+  }
+  list.push_back({"strain_rate_per_s", [](const CellValues& v) { return v.strain_rate; }});
+  list.push_back({"von_mises_Pa", [](const CellValues& v) { return v.von_mises; }});
+  list.push_back({"stress_xx_Pa", [](const CellValues& v) { return v.stress.xx; }});
+  list.push_back({"stress_yy_Pa", [](const CellValues& v) { return v.stress.yy; }});
+  list.push_back({"stress_zz_Pa", [](const CellValues& v) { return v.stress.zz; }});
+  list.push_back({"stress_xy_Pa", [](const CellValues& v) { return v.stress.xy; }});
+  list.push_back({"stress_yz_Pa", [](const CellValues& v) { return v.stress.yz; }});
+  list.push_back({"stress_zx_Pa", [](const CellValues& v) { return v.stress.zx; }});
+  list.push_back({"thickness_m", [](const CellValues& v) { return v.thickness; }});
+  if (layout.temperature >= 0) list.push_back({"temperature_K", [](const CellValues& v) { return v.temperature; }});
+  return list;
 }
 
 }  // namespace
@@ -77,17 +147,16 @@ StructureFrame plate_frame(const PlateSolid& plate) {
   frame.velocity = resample(mesh, plate.state().v);
   frame.position = resample(mesh, mesh.position);
   for (std::size_t i = 0; i < frame.position.size(); ++i) frame.position[i] += frame.displacement[i];
-  std::vector<double> mean, max, temperature, mises, thickness;
+  std::vector<CellValues> values;
   for (long e = 0; e < mesh.element_count(); ++e) {
     auto& cell = frame.cells.emplace_back();
     for (const int local : vtk_cubic_order) cell.push_back(mesh.element_node(e, local));
-    const CellValues v = cell_values(plate, e);
-    mean.push_back(v.mean_strain), max.push_back(v.max_strain), temperature.push_back(v.temperature);
-    mises.push_back(v.von_mises), thickness.push_back(v.thickness);
+    values.push_back(cell_values(plate, e));
   }
-  frame.cell_data = {
-      {"plastic_strain", mean}, {"plastic_strain_max", max}, {"von_mises_Pa", mises}, {"thickness_m", thickness}};
-  if (plate.forces().layout().temperature >= 0) frame.cell_data.emplace_back("temperature_K", temperature);
+  for (const Column& column : columns(plate.forces().layout())) {
+    auto& [name, data] = frame.cell_data.emplace_back(column.name, std::vector<double>{});
+    for (const CellValues& v : values) data.push_back(column.of(v));
+  }
   return frame;
 }
 
