@@ -119,6 +119,9 @@ def judge_paraview(folder):
     series = [folder / "dry/plate/plate.pvd", folder / "dry/particles/particles.pvd"]
     done = subprocess.run(["pvpython", "--force-offscreen-rendering", script, *series], capture_output=True, text=True)
     expect("ParaView opens both series", done.returncode == 0, done.stdout + done.stderr)
+    cells = ROOT / "tests/validation/cubic_cells.py"
+    done = subprocess.run(["pvpython", "--force-offscreen-rendering", cells, series[0]], capture_output=True, text=True)
+    expect("ParaView shows cubic cells in order", done.returncode == 0, done.stdout + done.stderr)
 
 
 def main():
