@@ -28,9 +28,9 @@ struct BarOptions {
 };
 
 struct BarResult {
-  double length = 0.0, foot_diameter = 0.0;             // m
+  double length = 0.0, foot_diameter = 0.0;                // m
   double max_plastic_strain = 0.0, max_temperature = 0.0;  // at Gauss points, K
-  double energy_error = 0.0;                            // of the kinetic energy at the start
+  double energy_error = 0.0;                               // of the kinetic energy at the start
   bool sound = true;
 };
 
@@ -61,7 +61,8 @@ class TaylorBar {
       kick(f, 0.5 * o_.dt);
       lost += stop_at_wall();
       r.sound = sums.sound;
-      r.energy_error = std::max(r.energy_error, std::fabs(start - lost - kinetic() - sums.elastic - dissipated) / start);
+      r.energy_error =
+          std::max(r.energy_error, std::fabs(start - lost - kinetic() - sums.elastic - dissipated) / start);
     }
     measure(r);
     return r;
@@ -159,8 +160,7 @@ class TaylorBar {
       }
       const auto sums = hex64_force<Law>(metal_, geometry_[e], {dt, true}, true, u, history_[e].data(), force);
       all.elastic += sums.elastic, all.inelastic += sums.inelastic, all.sound = all.sound && sums.sound;
-      for (std::size_t a = 0; a < hex_nodes; ++a)
-        f[element_[e][a]] += Vec3{force[0][a], force[1][a], force[2][a]};
+      for (std::size_t a = 0; a < hex_nodes; ++a) f[element_[e][a]] += Vec3{force[0][a], force[1][a], force[2][a]};
     }
     return all;
   }
