@@ -38,9 +38,9 @@ class BrokerLoop {
  public:
   explicit BrokerLoop(const BrokerOptions& options)
       : options_(options),
-        endpoint_(parse_endpoint(options.listen, options.insecure)),
+        endpoint_(parse_endpoint(options.listen, options.insecure || options.keys.on())),
         lock_(endpoint_),
-        router_(endpoint_),
+        router_(endpoint_, options.keys),
         state_(open_session(options.rules, now())) {
     if (const std::string& folder = options.rules.checkpoint.folder; !folder.empty())
       checkpoints_.emplace(folder, options.build);
@@ -53,6 +53,8 @@ class BrokerLoop {
       router_.wait(tick);
       // In this order, so that the last words of a peer that is gone are heard before its end is believed.
       lost_ = router_.take_gone();
+      lost_.insert(lost_.end(), unreachable_.begin(), unreachable_.end());
+      unreachable_.clear();
       while (auto arrival = router_.receive()) handle(read(std::move(*arrival)));
       for (const std::string& address : lost_) handle(Disconnected{address});
       if (const double time = now(); time - ticked_ >= std::chrono::duration<double>(tick).count()) {
@@ -122,7 +124,8 @@ class BrokerLoop {
       case Router::Delivery::sent:
         return std::nullopt;
       case Router::Delivery::gone:
-        return Disconnected{send.address};
+        unreachable_.push_back(send.address);  // its last words may not have been read yet
+        return std::nullopt;
       case Router::Delivery::full:
         break;
     }
@@ -175,7 +178,7 @@ class BrokerLoop {
   std::optional<CheckpointStore> checkpoints_;
   std::optional<TapeWriter> tape_;
   std::optional<double> tape_begun_;
-  std::vector<std::string> lost_;  // addresses that have just gone
+  std::vector<std::string> lost_, unreachable_;  // addresses that have just gone
   double ticked_ = 0.0;
   std::optional<ExitCode> code_;
 };

@@ -5,12 +5,14 @@
 #include <string>
 
 #include "coupling/session/session.hpp"
+#include "coupling/transport/curve_keys.hpp"
 
 namespace standoff {
 
 struct BrokerOptions {
   std::string listen;     // "ipc:///folder/name" or "tcp://127.0.0.1:port"
-  bool insecure = false;  // allow an address that other machines can reach
+  bool insecure = false;  // allow an address that other machines can reach, unencrypted
+  CurveKeys keys;         // with them the connection is encrypted and only known keys come in
   SessionRules rules;
   std::string build;                                   // names this program in a checkpoint
   std::string tape;                                    // file that every exchange is recorded in; empty: none

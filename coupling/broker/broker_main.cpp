@@ -21,7 +21,7 @@ using namespace standoff;
 
 struct CommandLine {
   BrokerOptions broker;
-  std::string scheme = "parallel", window = "auto", resume;
+  std::string scheme = "parallel", window = "auto", resume, curve_secret, curve_allow, new_keys;
 };
 
 WindowRule parse_window(const std::string& text) {
@@ -70,6 +70,12 @@ void declare(CLI::App& app, CommandLine& line) {
       ->check(not_negative)
       ->capture_default_str();
   app.add_flag("--insecure", line.broker.insecure, "allow an address other machines can reach, unencrypted");
+  app.add_option("--curve-secret", line.curve_secret, "file with the broker's secret key: the connection is encrypted")
+      ->envname("STANDOFF_CURVE_SECRET");
+  app.add_option("--curve-allow", line.curve_allow, "file with the public keys that are let in, one a line")
+      ->envname("STANDOFF_CURVE_ALLOW");
+  // Listed for --help; it stands alone, see make_keys.
+  app.add_option("--new-keys", line.new_keys, "write a new pair of keys, PREFIX.secret and PREFIX.public, and end");
 }
 
 void declare_checkpoints(CLI::App& app, CommandLine& line) {
@@ -91,6 +97,13 @@ std::string absolute(const std::string& path) {
   return path.empty() ? "" : std::filesystem::absolute(path).lexically_normal().string();
 }
 
+/// `--new-keys PREFIX` and nothing else.
+bool make_keys(int argc, char** argv) {
+  if (argc != 3 || std::string(argv[1]) != "--new-keys") return false;
+  write_new_keys(argv[2]);
+  return true;
+}
+
 void print_line(const std::string& line) {
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
@@ -104,7 +117,9 @@ int main(int argc, char** argv) {
   declare(app, line);
   declare_checkpoints(app, line);
   try {
+    if (make_keys(argc, argv)) return 0;
     app.parse(argc, argv);
+    line.broker.keys = read_broker_keys(line.curve_secret, line.curve_allow);
     line.broker.rules.window = parse_window(line.window);
     line.broker.rules.parallel = line.scheme == "parallel";
     // Beats must come often enough for the deadline.

@@ -30,7 +30,8 @@ std::string host_name() {
 
 }  // namespace
 
-Link::Link(const ParticipantOptions& options) : options_(options), dealer_(options.endpoint) {
+Link::Link(const ParticipantOptions& options)
+    : options_(options), dealer_(options.endpoint, options.keys, options.insecure) {
   last_sent_ = last_heard_ = last_look_ = Clock::now();
   join();
   keeper_ = std::thread([this] { keep(); });
@@ -57,7 +58,15 @@ void Link::join() {
       throw Stop(ExitCode::participant_lost, fmt::format("{} at {} within {:g} s: is standoff-broker running there?",
                                                          what, options_.endpoint, options_.join_deadline));
   };
-  while (!dealer_.connected()) wait_on("no broker answered");
+  while (!dealer_.connected()) {
+    wait_on("no broker answered");
+    if (dealer_.refused())
+      throw Stop(ExitCode::bad_case,
+                 fmt::format("the broker at {} does not accept our keys: --curve-server must be its "
+                             "public key and --curve-allow of the broker must hold ours, or neither "
+                             "side has keys",
+                             options_.endpoint));
+  }
   post(message::Hello{options_.name, options_.role, options_.version, options_.case_hash, getpid(), host_name(),
                       options_.keeps});
   while (!welcome_) wait_on("the broker did not take up HELLO");

@@ -23,6 +23,7 @@
 #include "coupling/base/state_archive.hpp"
 #include "coupling/contract/surface.hpp"
 #include "coupling/session/messages.hpp"  // Role, WindowNeeds, CouplingClock, NamedValues, InterfaceTotals
+#include "coupling/transport/curve_keys.hpp"
 
 namespace standoff {
 
@@ -37,6 +38,8 @@ struct ParticipantOptions {
   double leave_within = 3.0;    // s a solver may go on computing after the first failure
   std::string trace = {};       // file for what was done when (trace_log.hpp); empty: none
   bool keeps = false;           // calls keep(): takes part in checkpoints
+  CurveKeys keys = {};          // for a broker on another host; or
+  bool insecure = false;        // go to another host unencrypted
   /// What to do after that; empty: print "standoff-NAME: error: TEXT" and end the process with the code.
   std::function<void(ExitCode, const std::string& text)> end_process = nullptr;
 };

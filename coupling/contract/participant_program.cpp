@@ -30,6 +30,11 @@ ParticipantCommand participant_command(int argc, char** argv, const ParticipantI
   app.add_option("--level", command.level, "level of an unresolved case");
   app.add_option("--connect", command.endpoint, "address of the broker, ipc://PATH or tcp://HOST:PORT")->required();
   app.add_option("--token", command.token, "run token, the broker's");
+  app.add_option("--curve-secret", command.curve_secret, "file with our secret key, for a broker on another host")
+      ->envname("STANDOFF_CURVE_SECRET");
+  app.add_option("--curve-server", command.curve_server, "file with the public key of the broker")
+      ->envname("STANDOFF_CURVE_SERVER");
+  app.add_flag("--insecure", command.insecure, "go to a broker on another host unencrypted");
   app.add_option("--out", command.out, "run folder for frames and maps; without it nothing is written");
   app.add_option("--trace", command.trace, "file for what was done when, one trace event a line");
   app.add_option("--threads", command.threads, "threads of this process")->check(CLI::Range(1, 1024));
@@ -59,6 +64,8 @@ int participant_program(int argc, char** argv, const ParticipantIdentity& identi
     options.case_hash = read.hash;
     options.keeps = identity.keeps;
     options.trace = command.trace;
+    options.keys = read_participant_keys(command.curve_secret, command.curve_server);
+    options.insecure = command.insecure;
     with_link(options, [&](Participant& link) { body(read.spec, command, link); });
   });
 }

@@ -22,14 +22,16 @@ struct ParticipantIdentity {
 };
 
 struct ParticipantCommand {
-  std::string case_file;   // --case: case.toml or case.resolved.toml
-  std::string level;       // --level: only needed for a case that is not resolved
-  std::string endpoint;    // --connect
-  std::string token;       // --token
-  std::string out;         // --out: run folder, empty writes nothing
-  std::string trace;       // --trace: empty writes none
-  int threads = 1;         // --threads
-  bool only_help = false;  // --help was asked for and printed
+  std::string case_file;                   // --case: case.toml or case.resolved.toml
+  std::string level;                       // --level: only needed for a case that is not resolved
+  std::string endpoint;                    // --connect
+  std::string token;                       // --token
+  std::string out;                         // --out: run folder, empty writes nothing
+  std::string trace;                       // --trace: empty writes none
+  std::string curve_secret, curve_server;  // key files, for a broker on another host
+  bool insecure = false;                   // --insecure: or unencrypted
+  int threads = 1;                         // --threads
+  bool only_help = false;                  // --help was asked for and printed
 };
 
 /// Reads the command line; throws Stop(bad_case) with usage if it is wrong.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "coupling/base/stop.hpp"
+#include "coupling/transport/curve.hpp"
 #include "coupling/transport/endpoint.hpp"
 #include "coupling/transport/socket_watch.hpp"
 
@@ -16,15 +17,16 @@ constexpr int retry_ms = 50;  // between attempts to connect while the broker is
 }  // namespace
 
 struct Dealer::Impl {
-  zmq::context_t context{1};
-  zmq::socket_t socket{context, zmq::socket_type::dealer};
-  SocketWatch watch{context, socket};
-  bool connected = false, lost = false;
+  explicit Impl(const Endpoint& given) : endpoint(given), connected(given.inproc) {}
+  Endpoint endpoint;
+  std::shared_ptr<zmq::context_t> context = context_for(endpoint);
+  zmq::socket_t socket{*context, zmq::socket_type::dealer};
+  SocketWatch watch{*context, socket};
+  bool connected, lost = false, refused = false;
 };
 
-Dealer::Dealer(const std::string& endpoint) : impl_(std::make_unique<Impl>()) {
-  // Where a participant may go is the user's choice; --insecure guards the side that listens.
-  parse_endpoint(endpoint, true);
+Dealer::Dealer(const std::string& endpoint, const CurveKeys& keys, bool insecure)
+    : impl_(std::make_unique<Impl>(parse_endpoint(endpoint, insecure || keys.on()))) {
   zmq::socket_t& socket = impl_->socket;
   socket.set(zmq::sockopt::linger, linger_ms);
   // ZMQ_IMMEDIATE stays off: with it, libzmq 4.3.4 drops what has arrived and was not yet read when a connection ends,
@@ -33,6 +35,7 @@ Dealer::Dealer(const std::string& endpoint) : impl_(std::make_unique<Impl>()) {
   socket.set(zmq::sockopt::rcvhwm, most_queued);
   socket.set(zmq::sockopt::maxmsgsize, most_frame_bytes);
   socket.set(zmq::sockopt::reconnect_ivl, retry_ms);
+  if (keys.on()) use_as_client(socket, keys);
   try {
     socket.connect(endpoint);
   } catch (const zmq::error_t& error) {
@@ -41,6 +44,7 @@ Dealer::Dealer(const std::string& endpoint) : impl_(std::make_unique<Impl>()) {
 }
 
 Dealer::~Dealer() {
+  if (impl_->endpoint.inproc && !impl_->lost) send_farewell(impl_->socket);
   if (impl_->lost) impl_->socket.set(zmq::sockopt::linger, 0);  // nobody is there to take what is still queued
 }
 
@@ -50,7 +54,9 @@ void Dealer::wait(std::chrono::milliseconds timeout) {
 
 void Dealer::look() {
   while (const auto event = impl_->watch.next()) {
-    if (event->opened)
+    if (event->kind == ConnectionEvent::Kind::refused)
+      impl_->refused = true;
+    else if (event->kind == ConnectionEvent::Kind::opened)
       impl_->connected = true;
     else if (impl_->connected)
       impl_->lost = true;
@@ -65,8 +71,15 @@ bool Dealer::lost() const {
   return impl_->lost;
 }
 
+bool Dealer::refused() const {
+  return impl_->refused && !impl_->connected;
+}
+
 std::optional<Frames> Dealer::receive() {
-  return receive_frames(impl_->socket);
+  auto frames = receive_frames(impl_->socket);
+  if (!frames || !impl_->endpoint.inproc || !is_farewell(*frames)) return frames;
+  impl_->lost = true;
+  return std::nullopt;
 }
 
 bool Dealer::send(Frames frames, std::chrono::milliseconds timeout) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "coupling/transport/codec.hpp"
+#include "coupling/transport/curve_keys.hpp"
 
 namespace standoff {
 
@@ -13,7 +14,7 @@ class Dealer {
  public:
   /// Begins to connect and goes on trying: the broker may be started later. Throws Stop(bad_case) for an endpoint that
   /// cannot be one.
-  explicit Dealer(const std::string& endpoint);
+  explicit Dealer(const std::string& endpoint, const CurveKeys& keys = {}, bool insecure = false);
   ~Dealer();
   Dealer(const Dealer&) = delete;
   Dealer& operator=(const Dealer&) = delete;
@@ -25,6 +26,8 @@ class Dealer {
   bool connected() const;
   /// The connection was there and has ended. It is not taken up again.
   bool lost() const;
+  /// A broker is there and our keys and its keys do not fit, or only one side has keys.
+  bool refused() const;
 
   std::optional<Frames> receive();
   /// False if the message could not be handed over within `timeout`.

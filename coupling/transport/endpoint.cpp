@@ -37,9 +37,11 @@ bool same_file(int file, const std::string& path) {
 
 }  // namespace
 
-Endpoint parse_endpoint(const std::string& text, bool insecure) {
+Endpoint parse_endpoint(const std::string& text, bool allowed) {
   Endpoint endpoint;
   endpoint.text = text;
+  endpoint.inproc = text.starts_with("inproc://") && text.size() > 9;
+  if (endpoint.inproc) return endpoint;
   if (text.starts_with("ipc://")) {
     endpoint.path = text.substr(6);
     const std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
@@ -58,11 +60,11 @@ Endpoint parse_endpoint(const std::string& text, bool insecure) {
                fmt::format("endpoint \"{}\": expected ipc:///folder/name or tcp://127.0.0.1:port, port 1 .. 65535 or *",
                            text));
   endpoint.loopback = is_loopback(text.substr(6));
-  if (!endpoint.loopback && !insecure)
+  if (!endpoint.loopback && !allowed)
     throw Stop(ExitCode::bad_case,
                fmt::format("endpoint \"{}\" can be reached from other machines and the connection is "
-                           "not encrypted: use tcp://127.0.0.1:port, or say --insecure on a network "
-                           "you trust",
+                           "not encrypted: use tcp://127.0.0.1:port, give keys (--curve-secret ...), or say "
+                           "--insecure on a network you trust",
                            text));
   return endpoint;
 }

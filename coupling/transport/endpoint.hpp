@@ -1,18 +1,20 @@
 #pragma once
-// Where the broker listens: "ipc:///folder/name" (a socket file) or "tcp://127.0.0.1:port" ("*" takes any free port).
+// Where the broker listens: "ipc:///folder/name" (a socket file), "tcp://127.0.0.1:port" ("*" takes any free port), or
+// "inproc://name" (threads of one process: tests, and programs that hold both solvers).
 #include <string>
 
 namespace standoff {
 
 struct Endpoint {
-  std::string text;      // as given
-  std::string path;      // socket file of an ipc endpoint, else empty
-  bool loopback = true;  // false: reachable from other machines, without encryption
+  std::string text;  // as given
+  std::string path;  // socket file of an ipc endpoint, else empty
+  bool inproc = false;
+  bool loopback = true;  // false: reachable from other machines
 };
 
 /// Throws Stop(bad_case) for anything else, for an ipc path longer than the system allows (107 characters), and for an
-/// address beyond this machine unless `insecure`.
-Endpoint parse_endpoint(const std::string& text, bool insecure);
+/// address beyond this machine unless `allowed`: there are keys (curve.hpp), or the user said --insecure.
+Endpoint parse_endpoint(const std::string& text, bool allowed);
 
 /// Keeps an ipc path for one broker: libzmq lets a second bind steal a live path. A file "PATH.lock" is locked for the
 /// life of this object; it and the socket file are removed at its end.

@@ -1,10 +1,13 @@
 #include "coupling/transport/router.hpp"
 
 #include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "coupling/base/stop.hpp"
+#include "coupling/transport/curve.hpp"
 #include "coupling/transport/socket_watch.hpp"
 
 namespace standoff {
@@ -22,19 +25,28 @@ int descriptor_of(zmq::message_t& frame) {
 }  // namespace
 
 struct Router::Impl {
-  zmq::context_t context{1};
-  zmq::socket_t socket{context, zmq::socket_type::router};
-  SocketWatch watch{context, socket};
+  explicit Impl(const Endpoint& given) : endpoint(given) {}
+  Endpoint endpoint;
+  std::shared_ptr<zmq::context_t> context = context_for(endpoint);
+  std::optional<KeyGate> gate;
+  zmq::socket_t socket{*context, zmq::socket_type::router};
+  SocketWatch watch{*context, socket};
   std::map<int, std::string> address_of;  // by descriptor
+  std::set<std::string> here;             // inproc: who has said something
+  std::vector<std::string> has_left;      // inproc: who has said farewell
 };
 
-Router::Router(const Endpoint& endpoint) : impl_(std::make_unique<Impl>()) {
+Router::Router(const Endpoint& endpoint, const CurveKeys& keys) : impl_(std::make_unique<Impl>(endpoint)) {
   zmq::socket_t& socket = impl_->socket;
   socket.set(zmq::sockopt::linger, linger_ms);
   socket.set(zmq::sockopt::router_mandatory, true);
   socket.set(zmq::sockopt::sndhwm, most_queued);
   socket.set(zmq::sockopt::rcvhwm, most_queued);
   socket.set(zmq::sockopt::maxmsgsize, most_frame_bytes);
+  if (keys.on()) {
+    impl_->gate.emplace(*impl_->context, keys.allowed);
+    use_as_server(socket, keys);
+  }
   try {
     socket.bind(endpoint.text);
   } catch (const zmq::error_t& error) {
@@ -42,7 +54,9 @@ Router::Router(const Endpoint& endpoint) : impl_(std::make_unique<Impl>()) {
   }
 }
 
-Router::~Router() = default;
+Router::~Router() {
+  for (const std::string& address : impl_->here) send_farewell(impl_->socket, address);
+}
 
 std::string Router::endpoint() const {
   return impl_->socket.get(zmq::sockopt::last_endpoint);
@@ -62,15 +76,21 @@ std::optional<Router::Arrival> Router::receive() {
     if (descriptor != closed_descriptor) impl_->address_of[descriptor] = arrival.address;
   }
   frames->erase(frames->begin());
+  if (impl_->endpoint.inproc && is_farewell(*frames)) {
+    impl_->here.erase(arrival.address);
+    impl_->has_left.push_back(arrival.address);
+    return receive();
+  }
+  if (impl_->endpoint.inproc) impl_->here.insert(arrival.address);
   arrival.frames = std::move(*frames);
   return arrival;
 }
 
 std::vector<std::string> Router::take_gone() {
-  std::vector<std::string> gone;
+  std::vector<std::string> gone = std::exchange(impl_->has_left, {});
   while (const auto event = impl_->watch.next()) {
     const auto known = impl_->address_of.find(event->descriptor);
-    if (event->opened || known == impl_->address_of.end()) continue;
+    if (event->kind != ConnectionEvent::Kind::ended || known == impl_->address_of.end()) continue;
     gone.push_back(known->second);
     impl_->address_of.erase(known);
   }

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "coupling/transport/codec.hpp"
+#include "coupling/transport/curve_keys.hpp"
 #include "coupling/transport/endpoint.hpp"
 
 namespace standoff {
 
 class Router {
  public:
-  explicit Router(const Endpoint& endpoint);  // binds; throws Stop(bad_case) if that is not possible
+  /// Binds; throws Stop(bad_case) if that is not possible.
+  explicit Router(const Endpoint& endpoint, const CurveKeys& keys = {});
   ~Router();
   Router(const Router&) = delete;
   Router& operator=(const Router&) = delete;

@@ -2,9 +2,12 @@
 
 #include <atomic>
 #include <cstring>
+#include <mutex>
 
 namespace standoff {
 namespace {
+
+constexpr int handshake_broken = ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL;
 
 std::string fresh_name() {
   static std::atomic<unsigned> count{0};
@@ -16,8 +19,9 @@ std::string fresh_name() {
 SocketWatch::SocketWatch(zmq::context_t& context, zmq::socket_t& socket)
     : socket_(socket), events_(context, zmq::socket_type::pair) {
   const std::string name = fresh_name();
-  if (zmq_socket_monitor(socket.handle(), name.c_str(), ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED) != 0)
-    throw zmq::error_t();
+  constexpr int wanted =
+      ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH | handshake_broken;
+  if (zmq_socket_monitor(socket.handle(), name.c_str(), wanted) != 0) throw zmq::error_t();
   events_.set(zmq::sockopt::linger, 0);
   events_.connect(name);
 }
@@ -34,7 +38,31 @@ std::optional<ConnectionEvent> SocketWatch::next() {
   std::int32_t value = -1;
   std::memcpy(&number, (*frames)[0].data(), sizeof number);
   std::memcpy(&value, static_cast<const char*>((*frames)[0].data()) + sizeof number, sizeof value);
-  return ConnectionEvent{number == ZMQ_EVENT_HANDSHAKE_SUCCEEDED, value};
+  using Kind = ConnectionEvent::Kind;
+  const Kind kind = number == ZMQ_EVENT_HANDSHAKE_SUCCEEDED ? Kind::opened
+                    : number == ZMQ_EVENT_DISCONNECTED      ? Kind::ended
+                                                            : Kind::refused;
+  return ConnectionEvent{kind, value};
+}
+
+std::shared_ptr<zmq::context_t> context_for(const Endpoint& endpoint) {
+  if (!endpoint.inproc) return std::make_shared<zmq::context_t>(1);
+  static std::mutex mutex;
+  static std::weak_ptr<zmq::context_t> common;
+  const std::lock_guard guard(mutex);
+  auto context = common.lock();
+  if (!context) common = context = std::make_shared<zmq::context_t>(1);
+  return context;
+}
+
+bool is_farewell(const std::vector<zmq::message_t>& frames) {
+  return frames.size() == 1 && frames[0].size() == 0;
+}
+
+void send_farewell(zmq::socket_t& socket, const std::string& address) {
+  if (!address.empty() && zmq_send(socket.handle(), address.data(), address.size(), ZMQ_SNDMORE | ZMQ_DONTWAIT) < 0)
+    return;
+  zmq_send(socket.handle(), "", 0, ZMQ_DONTWAIT);
 }
 
 std::optional<std::vector<zmq::message_t>> receive_frames(zmq::socket_t& socket) {

@@ -1,17 +1,28 @@
 #pragma once
 // The event stream of a socket: connections that were made and that ended. Used by the sockets of this folder only.
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <zmq.hpp>
+
+#include "coupling/transport/endpoint.hpp"
 
 namespace standoff {
 
 struct ConnectionEvent {
-  bool opened = false;  // otherwise it ended
+  enum class Kind { opened, ended, refused };  // refused: the other side's keys and ours do not fit
+  Kind kind = Kind::ended;
   int descriptor = -1;
 };
+
+/// Both ends of an inproc endpoint must live in one context, each other end in its own.
+std::shared_ptr<zmq::context_t> context_for(const Endpoint& endpoint);
+/// On inproc there is no connection that could end: who leaves says so with an empty message.
+bool is_farewell(const std::vector<zmq::message_t>& frames);
+void send_farewell(zmq::socket_t& socket, const std::string& address = {});
 
 class SocketWatch {
  public:

@@ -15,7 +15,7 @@ namespace standoff::test {
 
 class RawPeer {
  public:
-  explicit RawPeer(const ParticipantOptions& options) : options_(options), dealer_(options.endpoint) {
+  explicit RawPeer(const ParticipantOptions& options) : options_(options), dealer_(options.endpoint, options.keys) {
     if (!eventually(10.0, [&] { return dealer_.look(), dealer_.connected(); })) throw std::runtime_error("no broker");
   }
   /// `change` may spoil the frames before they are sent.

@@ -37,7 +37,7 @@ TEST(Endpoint, ImpossibleAddresses_AreRefused) {
   EXPECT_EQ(refusal("ipc:///" + std::string(106, 'a')), "");
   EXPECT_NE(refusal("ipc:///" + std::string(107, 'a')).find("the system allows 107"), std::string::npos);
   EXPECT_NE(refusal("ipc://relative").find("absolute"), std::string::npos);
-  for (const char* text : {"", "tcp://", "tcp://127.0.0.1", "udp://127.0.0.1:1", "inproc://x", "tcp://127.0.0.1:65536",
+  for (const char* text : {"", "tcp://", "tcp://127.0.0.1", "udp://127.0.0.1:1", "inproc://", "tcp://127.0.0.1:65536",
                            "tcp://127.0.0.1:x"})
     EXPECT_NE(refusal(text).find("expected ipc://"), std::string::npos) << text;
 }
