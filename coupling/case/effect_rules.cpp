@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "coupling/case/structural_models.hpp"
+
 namespace standoff {
 namespace {
 
@@ -223,6 +225,8 @@ EffectFinding expansion(const CaseSpec& spec) {
 }
 
 EffectFinding relaxation(const CaseSpec& spec) {
+  if (spec.plate.model == material_point_model)
+    return nothing("one material point: there is no plate to bring to rest");
   return {true, spec.run.settle,
           spec.run.settle ? "run.settle: the plate is brought to rest for its permanent shape"
                           : "run.settle = false: the run ends while the plate moves"};

@@ -9,7 +9,8 @@
 namespace standoff {
 
 struct PresetValue {
-  std::string_view path, text;  // key and value, as a case file would say it
+  std::string_view path, text;   // key and value, as a case file would say it
+  std::string_view source = "";  // where this value comes from, if not from what the preset's doc cites
 };
 
 struct Preset {

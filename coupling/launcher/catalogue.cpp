@@ -42,6 +42,7 @@ std::string value_in_SI(const PresetValue& value) {
 }
 
 std::string source_of(const Preset& preset, const PresetValue& value) {
+  if (!value.source.empty()) return std::string(value.source);
   const KeyEntry* key = find_key(value.path);
   return key != nullptr && !key->source.empty() ? std::string(key->source) : bracket_in(preset.doc);
 }

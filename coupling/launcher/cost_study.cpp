@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "coupling/case/near_word.hpp"
+#include "coupling/case/structural_models.hpp"
 #include "coupling/launcher/build_facts.hpp"
 #include "coupling/launcher/prediction.hpp"
 #include "coupling/launcher/run_folder.hpp"
@@ -65,6 +66,10 @@ std::size_t levels_within(const std::vector<double>& predicted, double budget) {
 
 CostStudy plan_study(const CostOptions& options) {
   const CaseRead first = read_or_stop(options, "", "");
+  if (first.spec.plate.model == material_point_model)
+    throw Stop(ExitCode::bad_case,
+               "a material point has no mesh and no particles: there is no accuracy to be bought\n"
+               "  `standoff run` draws its flow curves; plate.model chooses a plate");
   CostStudy study;
   study.name = first.spec.name;
   const std::vector<std::string> levels = chosen_levels(options, first.spec.levels);

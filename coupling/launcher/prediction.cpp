@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/case/structural_models.hpp"
+
 namespace standoff::launch {
 namespace {
 
@@ -230,6 +232,12 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
                             const CostConstants& constants) {
   CostPrediction p;
   p.copies = spec.copies();
+  if (spec.plate.model == material_point_model) {  // no plate, no charge, no windows: milliseconds of curves
+    for (const EffectDecision& effect : spec.effects)
+      p.effects.push_back({effect.name, effect.on, effect.reason, 0, 0});
+    p.particle_threads = 0, p.structure_threads = 1, p.wall_s = constants.start_up;
+    return p;
+  }
   plan_structure(spec, constants, p);
   plan_gas(spec, constants, p);
   plan_sand(spec, constants, p);

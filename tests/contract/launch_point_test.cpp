@@ -42,5 +42,19 @@ TEST_F(LauncherPoint, ElasticMaterial_HasNoFlowCurveAndSaysSo) {
   EXPECT_NE(errors().find("does not yield"), std::string::npos) << errors();
 }
 
+// No plate is priced: no elements, no windows, no memory, and nothing whose cost could be studied.
+TEST_F(LauncherPoint, PlanAndCost_PriceNoPlate) {
+  const std::string point = STANDOFF_SOURCE_DIR "/cases/borvik_2011/material_al6xn";
+  ASSERT_EQ(run({"plan", point, "--json"}), 0) << errors();
+  const auto j = nlohmann::json::parse(output(), nullptr, false);
+  EXPECT_EQ(j["counts"]["elements"], 0) << j;
+  EXPECT_EQ(j["counts"]["windows"], 0) << j;
+  EXPECT_EQ(j["memory"]["structure_bytes"], 0.0) << j;
+  for (const auto& [what, seconds] : j["core_seconds"].items()) EXPECT_EQ(seconds, 0.0) << what;
+  EXPECT_EQ(run({"cost", point, "--out", "study"}), 2);
+  EXPECT_NE(errors().find("no mesh and no particles"), std::string::npos) << errors();
+  EXPECT_FALSE(files::exists(root_ / "study/cost.csv"));
+}
+
 }  // namespace
 }  // namespace standoff::launch
