@@ -82,9 +82,9 @@ class Completion {
   void expand(const std::string& kind, const std::string& key) {
     const Preset* preset = find_preset(kind, s_.word(key));
     if (!preset) return;
-    for (const auto& [path, text] : preset->values)
-      s_.add(std::string(path),
-             {known_value(text, *find_key(path)), "preset " + std::string(preset->name), {}, rank::preset});
+    for (const PresetValue& value : preset->values)
+      s_.add(std::string(value.path),
+             {known_value(value.text, *find_key(value.path)), "preset " + std::string(preset->name), {}, rank::preset});
   }
 
   /// bulk density = packing * grain density: of the two densities the one stated with the higher rank is kept.
