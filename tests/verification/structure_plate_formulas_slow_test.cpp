@@ -43,8 +43,9 @@ double peak_of(PlateHex64& model, double until) {
 TEST(ImpulsivePlate_Mesh, TenByTenAgainstTwentyByTwenty_PeakAgrees) {
   PlateHex64 coarse(testing::plate_case(10, true), 2), fine(testing::plate_case(20, true), 2);
   give_uniform_impulse(coarse, 130.0), give_uniform_impulse(fine, 130.0);
-  const double reference = peak_of(fine, 0.6e-3);
-  EXPECT_NEAR(peak_of(coarse, 0.6e-3), reference, 0.005 * reference) << "m";
+  const double reference = peak_of(fine, 0.9e-3), peak = peak_of(coarse, 0.9e-3);
+  std::printf("  peak %.3f mm with 10 x 10, %.3f mm with 20 x 20\n", 1e3 * peak, 1e3 * reference);
+  EXPECT_NEAR(peak, reference, 0.005 * reference) << "m";
 }
 
 TEST(ImpulsivePlate_Formulas, ThreeImpulses_AreReportedBesideNurickAndJones) {
