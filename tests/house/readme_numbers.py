@@ -131,7 +131,7 @@ def result(copy):
                   f"unbalanced force {rest['residual_N']:.1g} N, drift {1e6 * rest['drift_m_per_period']:.2f} um per period"])
     particles = ", ".join(f"{counts[f'{medium}_particles']:,} {medium} particles" for medium in ("charge", "sand", "air")
                           if f"{medium}_particles" in counts)
-    return (table(rows) + "\n" + table(books) + f"\n{', '.join([run['level'], *run['set']])}, seed {run['seed']}: {particles}, "
+    return (table(rows) + "\n" + table(books) + f"\n{', '.join([*filter(None, [run['level'], *run['set']]), 'seed'])} {run['seed']}: {particles}, "
             f"{counts['elements']} elements; {run['wall_s']:.0f} s on {run['provenance']['cpu']}.\n")
 
 
