@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "coupling/base/state_hash.hpp"
+#include "particle_solver/app/particle_guard.hpp"
 
 namespace standoff::particles {
 
@@ -16,6 +17,10 @@ ParticleBooks::ParticleBooks(const CaseSpec& spec, const Scene& scene, const Tim
 
 void ParticleBooks::observe(double time) {
   if (shock_) shock_->observe(scene_.sand, time);
+}
+
+void ParticleBooks::guard(double time, double window) const {
+  guard_surface(loop_.boundary_totals(), scene_.charge_particles + scene_.sand_particles, window, time);
 }
 
 double ParticleBooks::front_radius() const {
@@ -32,7 +37,7 @@ double ParticleBooks::front_radius() const {
 
 NamedValues ParticleBooks::sample(double time) {
   const ParticleEnergy energy = loop_.energy();
-  ledger_.observe(energy);
+  guard_particle_energy(spec_, energy, ledger_.observe(energy), time);
   const LoopTotals& totals = loop_.totals();
   const double full = spec_.copies();
   NamedValues row{{"time_s", time}, {"impulse_Ns", -full * scene_.sheet.total_impulse().z}};

@@ -19,6 +19,8 @@ class ParticleBooks {
 
   /// After every window.
   void observe(double time);
+  /// Throws Stop(guard) if particles have passed through the plate.
+  void guard(double time, double window) const;
   /// Reads the ledger and returns the columns of histories.csv that the particles know, full domain.
   NamedValues sample(double time);
   /// For the progress line.

@@ -45,12 +45,15 @@ void run_particles(const CaseSpec& spec, const ParticleRunOptions& options, Part
   const CouplingClock clock = link.ready({std::min(loop.stable_step(), spec.run.until), window_limit(spec, scene)});
 
   Stopwatch since_progress;
+  const auto draw = [&](double time) {
+    files.frame(time, scene.gas, scene.sand, scene.has_air ? &scene.air->particles : nullptr);
+  };
   auto observe = [&](double time, long window) {
     const double slack = 0.5 * clock.window;
     books.observe(time);
+    books.guard(time, clock.window);
     if (row.due(time, slack)) link.sample(time, books.sample(time));
-    if (frame.due(time, slack))
-      files.frame(time, scene.gas, scene.sand, scene.has_air ? &scene.air->particles : nullptr);
+    if (frame.due(time, slack)) draw(time);
     if (window == clock.windows || since_progress.seconds() > seconds_between_progress) {
       link.progress(books.progress(time, window, clock.windows));
       since_progress = {};

@@ -26,7 +26,9 @@
 //
 // Stability: dt < 2 sqrt(m_red/k) = 1.41 sqrt(m/k) for a free pair, sqrt(2 m / (z k)) for z contacts (row sum of the
 // stiffness, Gershgorin). Accuracy asks for less: a contact is entered within a step, which shifts energy by up to k (v
-// dt)^2/8, so dt = 0.05 * 2 sqrt(m/k) is recommended (SandPairs::stable_step).
+// dt)^2/8, so dt = 0.05 * 2 sqrt(m/k) is recommended (SandPairs::stable_step). A dashpot acts with the speed of the
+// step before: an error of c dt / m_red of its loss, so dt <= 0.05 m_red / c too; that is the shorter one from xi =
+// 0.18 on.
 //
 // Units: k N/m (> 0), mu >= 0, xi 0..1, lengths m, losses J. Number type: double, or Lanes for four pairs at once. What
 // is compiled out costs nothing: without Friction there is no spring, without Damping no loss and no division by dt.

@@ -93,6 +93,7 @@ void Boundaries::find(const State& state, const Limits& limits, std::vector<std:
   for (std::size_t part = 0; part < found_.size(); ++part) {
     out.insert(out.end(), found_[part].begin(), found_[part].end());
     totals_.slipped += static_cast<long>(slips_[part].size());
+    if (!slips_[part].empty()) totals_.last_slip = state.position[slips_[part].back()];
   }
 }
 

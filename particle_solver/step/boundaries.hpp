@@ -33,6 +33,7 @@ struct BoundaryChanges {
 struct BoundaryTotals {
   long gas = 0, sand = 0;                        // particles taken out
   long slipped = 0;                              // of these, below the sheet inside its outline
+  Vec3 last_slip;                                // m, where one of these was
   double sand_mass = 0.0;                        // kg; they are beyond every front radius
   double gas_rebound = 0.0, sand_rebound = 0.0;  // kg m/s, last plate rebound of particles taken out
 };

@@ -17,7 +17,9 @@ GrainLaw grain_law(const SoilSpec& soil, double cell_size) {
 }
 
 double recommended_step(const GrainLaw& law, double mass) {
-  return 0.05 * 2.0 * std::sqrt(mass / law.stiffness);
+  const double spring = 2.0 * std::sqrt(mass / law.stiffness);
+  const double dashpot = std::sqrt(0.5 * mass / law.stiffness) / (2.0 * std::max(law.damping, 1e-300));  // m_red / c
+  return 0.05 * std::min(spring, dashpot);
 }
 
 namespace {

@@ -212,7 +212,10 @@ def hard(copy):
         title = tomllib.loads((folder / "case.toml").read_text())["case"]["title"]
         rows.append([f"[{title}]({name})", outcome["others"], outcome["ours"], str(outcome["exit"]),
                      *(form.format(found[key]) if key in found else "" for key, _, form in HARD_FIGURES)])
-    return table(rows, texts=3)
+    tests = tomllib.loads((copy.parent.parent / "tests.toml").read_text())["test"]
+    more = [["situation", "known of other codes", "ours", "test"]]
+    more += [[test["title"], test["others"], test["ours"], f"[{pathlib.Path(test['file']).name}](../../{test['file']})"] for test in tests]
+    return table(rows, texts=3) + "\n" + table(more, texts=4)
 
 
 COMMANDS = {"faults": faults, "result": result, "cell": cell, "cost": cost, "hard": hard}

@@ -79,5 +79,29 @@ TEST(EnergyGuard_AtRest, BeforeAnyLoad_KeepsQuiet) {
   EXPECT_NO_THROW(books.observe(model));
 }
 
+// What the guard prevents. Nobody looks at the books: after 400 steps 2 % beyond the limit the plate has a deflection
+// that anyone would believe, within half of that of the stable run, and energy from nowhere.
+TEST(EnergyGuard_Absent, TwoPercentBeyondTheLimit_DeflectionIsPlausibleAndEnergyIsNot) {
+  const auto run = [](double dt_over_limit) {
+    PlateHex64 model(testing::plate_case(6, true), 1);
+    const double limit = stability_limit(model);
+    const auto pulse = [&] {
+      const double phase = model.time() / 60e-6;
+      return phase < 1.0 ? 4e6 * std::pow(std::sin(M_PI * phase), 2) : 0.0;
+    };
+    while (model.time() < 400 * limit) {
+      model.set_surface_force(testing::pressure_force(model.plate().mesh(), pulse()));
+      model.step(dt_over_limit * limit);
+    }
+    const StructureLedger books = model.ledger();
+    return std::pair{model.centre_deflection(), std::abs(books.balance()) / books.external_work};
+  };
+  const auto [stable, small] = run(0.9);
+  const auto [unstable, large] = run(1.02);
+  EXPECT_LT(small, 0.005);
+  EXPECT_GT(large, 0.05) << "energy from nowhere over work";
+  EXPECT_NEAR(unstable, stable, 0.5 * stable) << "m";
+}
+
 }  // namespace
 }  // namespace standoff::structure
