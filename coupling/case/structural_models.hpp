@@ -20,6 +20,11 @@ inline constexpr StructuralModelEntry structural_models[] = {
      "large deflection, membrane and bending waves, stress through the thickness; Johnson-Cook hardening, rate, "
      "heating and thermal expansion; the way to rest",
      "fracture, slip under the clamp", 1.0},
+    {"plate_shell", "Plate of 4-node shells (MITC4) with five layers, plane stress, explicit central differences.",
+     "large deflection, membrane and bending waves, transverse shear; Johnson-Cook hardening, rate, heating and "
+     "thermal "
+     "expansion, thinning; the way to rest",
+     "stress normal to the plate, waves through the thickness, the thickness under the load, fracture", 0.26},
     {"rigid_plate", "The plate as one rigid body: held, or with free edges pushed along z by the load.",
      "the load: impulse and where it lands", "all deformation; held, the load is that on a plate that does not recede",
      0.0},

@@ -1,6 +1,7 @@
 #include "coupling/base/stop.hpp"
 #include "coupling/case/near_word.hpp"
 #include "structure_solver/models/plate_hex64/plate_hex64.hpp"
+#include "structure_solver/models/plate_shell/plate_shell.hpp"
 #include "structure_solver/models/rigid_plate/rigid_plate.hpp"
 #include "structure_solver/models/single_dof/single_dof.hpp"
 
@@ -17,6 +18,10 @@ constexpr Entry registry[] = {
     {"plate_hex64",
      [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
        return std::make_unique<PlateHex64>(spec, threads);
+     }},
+    {"plate_shell",
+     [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
+       return std::make_unique<PlateShell>(spec, threads);
      }},
     {"rigid_plate",
      [](const CaseSpec& spec, int) -> std::unique_ptr<StructuralModel> { return std::make_unique<RigidPlate>(spec); }},
