@@ -37,8 +37,9 @@ struct StoredField {
 std::vector<StoredField> stored(const PayloadHandle& payload) {
   std::vector<StoredField> fields;
   for (std::size_t i = 0; payload && i < payload->fields.size(); ++i) {
-    const auto& [shape, checksum] = payload->fields[i];
-    fields.push_back({shape.name, payload->frames[i].to_string(), shape.type, shape.components, shape.count, checksum});
+    const FieldShape& shape = payload->fields[i].shape;
+    fields.push_back({shape.name, payload->frames[i].to_string(), shape.type, shape.components, shape.count,
+                      payload->fields[i].checksum});
   }
   return fields;
 }

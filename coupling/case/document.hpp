@@ -16,7 +16,7 @@ struct Node {
   using Array = std::vector<Node>;
   struct Other {};  // dates and times: legal TOML that no key takes
 
-  std::variant<bool, long long, double, std::string, Array, Table, Other> value = false;
+  std::variant<bool, long long, double, std::string, Array, Table, Other> value;
   Place place;
 
   const Table* table() const { return std::get_if<Table>(&value); }

@@ -216,19 +216,22 @@ void Participant::request_stop(const std::string& reason) {
 void Participant::advance(const SurfaceMotion& motion, const InterfaceTotals& totals) {
   impl_->begin_advance();
   const Stopwatch watch;
-  for (const std::string& text :
-       {not_finite("surface position", motion.position), not_finite("surface velocity", motion.velocity)})
-    if (!text.empty()) impl_->stop_by_guard(text + ": the structure is unstable");
-  impl_->advance(to_fields(motion), totals);
+  const Payload payload = to_fields(motion);
+  if (!payload.finite())
+    for (const std::string& text :
+         {not_finite("surface position", motion.position), not_finite("surface velocity", motion.velocity)})
+      if (!text.empty()) impl_->stop_by_guard(text + ": the structure is unstable");
+  impl_->advance(payload, totals);
   impl_->times.exchange += watch.seconds();
 }
 
 void Participant::advance(const SurfaceLoad& load, const InterfaceTotals& totals) {
   impl_->begin_advance();
   const Stopwatch watch;
-  if (const std::string text = not_finite("force on the surface", load.force); !text.empty())
-    impl_->stop_by_guard(text + ": the load side is unstable");
-  impl_->advance(to_fields(load), totals);
+  const Payload payload = to_fields(load);
+  if (!payload.finite())
+    impl_->stop_by_guard(not_finite("force on the surface", load.force) + ": the load side is unstable");
+  impl_->advance(payload, totals);
   impl_->times.exchange += watch.seconds();
 }
 

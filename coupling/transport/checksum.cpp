@@ -49,30 +49,58 @@ std::uint64_t word_at(const unsigned char* bytes) {
   return word;
 }
 
+// All exponent bits set means infinity or not a number: adding one unit to the exponent then reaches the sign bit.
+constexpr std::uint64_t exponent = 0x7FF0000000000000ull, unit = 0x0010000000000000ull;
+
+/// One stream: remainder, and what `exponent` and `unit` have found so far.
+struct Stream {
+  std::uint64_t crc = 0, found = 0;
+
+  template <bool copying>
+  __attribute__((target("sse4.2"), always_inline)) void take(const unsigned char* from, unsigned char* to) {
+    const std::uint64_t word = word_at(from);
+    if constexpr (copying) std::memcpy(to, &word, sizeof word);
+    crc = _mm_crc32_u64(crc, word);
+    found |= (word & exponent) + unit;
+  }
+};
+
+template <bool copying>
+__attribute__((target("sse4.2"))) Copied pass_over(const unsigned char* at, unsigned char* to, std::size_t size) {
+  Stream first{0xFFFFFFFFu, 0};
+  const auto advance = [&](std::size_t bytes) { size -= bytes, at += bytes, to += copying ? bytes : 0; };
+  for (; size >= 3 * stream_bytes; advance(3 * stream_bytes)) {
+    Stream second{0, first.found}, third{0, 0};
+    for (std::size_t i = 0; i < stream_bytes; i += 8) {
+      first.take<copying>(at + i, to + i);
+      second.take<copying>(at + stream_bytes + i, to + stream_bytes + i);
+      third.take<copying>(at + 2 * stream_bytes + i, to + 2 * stream_bytes + i);
+    }
+    first.found |= second.found | third.found;
+    first.crc =
+        append_stream(append_stream(static_cast<std::uint32_t>(first.crc)) ^ static_cast<std::uint32_t>(second.crc)) ^
+        static_cast<std::uint32_t>(third.crc);
+  }
+  for (; size >= 8; advance(8)) first.take<copying>(at, to);
+  auto rest = static_cast<std::uint32_t>(first.crc);
+  for (; size > 0; advance(1)) {
+    rest = _mm_crc32_u8(rest, *at);
+    if constexpr (copying) *to = *at;
+  }
+  return {rest ^ 0xFFFFFFFFu, (first.found >> 63) == 0};
+}
+
 }  // namespace
 
-__attribute__((target("sse4.2"))) std::uint32_t crc32c(const void* data, std::size_t size) {
-  const auto* at = static_cast<const unsigned char*>(data);
-  std::uint64_t crc = 0xFFFFFFFFu;
-  for (; size >= 3 * stream_bytes; size -= 3 * stream_bytes, at += 3 * stream_bytes) {
-    std::uint64_t second = 0, third = 0;
-    for (std::size_t i = 0; i < stream_bytes; i += 8) {
-      crc = _mm_crc32_u64(crc, word_at(at + i));
-      second = _mm_crc32_u64(second, word_at(at + stream_bytes + i));
-      third = _mm_crc32_u64(third, word_at(at + 2 * stream_bytes + i));
-    }
-    crc = append_stream(append_stream(static_cast<std::uint32_t>(crc)) ^ static_cast<std::uint32_t>(second)) ^
-          static_cast<std::uint32_t>(third);
-  }
-  for (; size >= 8; size -= 8, at += 8) crc = _mm_crc32_u64(crc, word_at(at));
-  auto rest = static_cast<std::uint32_t>(crc);
-  for (; size > 0; --size, ++at) rest = _mm_crc32_u8(rest, *at);
-  return rest ^ 0xFFFFFFFFu;
+std::uint32_t crc32c(const void* data, std::size_t size) {
+  return pass_over<false>(static_cast<const unsigned char*>(data), nullptr, size).checksum;
+}
+
+Copied copy_checked(void* to, const void* from, std::size_t size) {
+  return pass_over<true>(static_cast<const unsigned char*>(from), static_cast<unsigned char*>(to), size);
 }
 
 bool all_finite(const void* data, std::size_t count) {
-  // All exponent bits set means infinity or not a number: adding one unit to the exponent then reaches the sign bit.
-  constexpr std::uint64_t exponent = 0x7FF0000000000000ull, unit = 0x0010000000000000ull;
   const auto* at = static_cast<const unsigned char*>(data);
   std::uint64_t any = 0;
   for (std::size_t i = 0; i < count; ++i) any |= (word_at(at + 8 * i) & exponent) + unit;

@@ -9,6 +9,13 @@ namespace standoff {
 
 std::uint32_t crc32c(const void* data, std::size_t size);
 
+struct Copied {
+  std::uint32_t checksum = 0;  // CRC-32C
+  bool finite = true;          // of the bytes as doubles, whole ones
+};
+/// Copies, and finds the rest on the way: the words of an array are loaded once on each end of an exchange.
+Copied copy_checked(void* to, const void* from, std::size_t size);
+
 /// True if none of the doubles is an infinity or not a number. `data` need not be aligned.
 bool all_finite(const void* data, std::size_t count);
 

@@ -16,11 +16,13 @@ constexpr std::int64_t most_components = 16, most_items = 1ll << 31;
 
 void add_frame(Payload& payload, FieldShape shape, const void* data, std::size_t size) {
   payload.frames.emplace_back(size);
-  if (size > 0) std::memcpy(payload.frames.back().data(), data, size);
-  payload.fields.push_back({std::move(shape), crc32c(data, size)});
+  const Copied copied = copy_checked(payload.frames.back().data(), data, size);
+  const bool finite = shape.type != DataType::f64 || copied.finite;
+  payload.fields.push_back({std::move(shape), copied.checksum, finite});
 }
 
-void take_frame(const Payload& payload, const FieldShape& wanted, void* into, std::size_t size) {
+/// True if all doubles are finite.
+bool take_frame(const Payload& payload, const FieldShape& wanted, void* into, std::size_t size) {
   for (std::size_t i = 0; i < payload.fields.size(); ++i) {
     const FieldDescriptor& field = payload.fields[i];
     if (field.shape.name != wanted.name) continue;
@@ -28,10 +30,10 @@ void take_frame(const Payload& payload, const FieldShape& wanted, void* into, st
     if (field.shape != wanted || frame.size() != size)
       throw ProtocolError(fmt::format("field \"{}\" has {} x {} values, expected {} x {}", wanted.name,
                                       field.shape.count, field.shape.components, wanted.count, wanted.components));
-    if (crc32c(frame.data(), size) != field.checksum)
+    const Copied copied = copy_checked(into, frame.data(), size);
+    if (copied.checksum != field.checksum)
       throw ProtocolError(fmt::format("field \"{}\" does not have the checksum its sender announced", wanted.name));
-    if (size > 0) std::memcpy(into, frame.data(), size);
-    return;
+    return copied.finite;
   }
   throw ProtocolError(fmt::format("field \"{}\" is missing", wanted.name));
 }
@@ -65,6 +67,12 @@ std::vector<FieldShape> Payload::shapes() const {
   return list;
 }
 
+bool Payload::finite() const {
+  for (const FieldDescriptor& field : fields)
+    if (!field.finite) return false;
+  return true;
+}
+
 void Payload::add(const std::string& name, std::int64_t components, std::span<const double> values) {
   add_frame(*this, shape_of(name, DataType::f64, components, values.size()), values.data(), values.size_bytes());
 }
@@ -74,8 +82,8 @@ void Payload::add(const std::string& name, std::int64_t components, std::span<co
 }
 
 void Payload::take(const std::string& name, std::int64_t components, std::span<double> values) const {
-  take_frame(*this, shape_of(name, DataType::f64, components, values.size()), values.data(), values.size_bytes());
-  if (all_finite(values.data(), values.size())) return;
+  if (take_frame(*this, shape_of(name, DataType::f64, components, values.size()), values.data(), values.size_bytes()))
+    return;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i])) {
       const auto width = static_cast<std::size_t>(components);

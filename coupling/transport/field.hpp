@@ -24,6 +24,7 @@ class ProtocolError : public std::runtime_error {
 struct FieldDescriptor {
   FieldShape shape;
   std::uint32_t checksum = 0;
+  bool finite = true;  // of an array of doubles that was added here
 };
 
 /// The arrays of one message; frames[i] belongs to fields[i].
@@ -33,6 +34,8 @@ struct Payload {
 
   std::int64_t bytes() const;
   std::vector<FieldShape> shapes() const;
+  /// True unless a double that was added is an infinity or not a number; it may not be sent then.
+  bool finite() const;
 
   /// Copies `values` (count x components of them) in as one field.
   void add(const std::string& name, std::int64_t components, std::span<const double> values);

@@ -27,8 +27,12 @@ TEST(Checksum, KnownTextAndEveryLength_MatchTheBitwiseDefinition) {
   std::vector<unsigned char> bytes(40000);
   CounterRandom random(7, RandomUse::test, 0);
   for (unsigned char& byte : bytes) byte = static_cast<unsigned char>(256.0 * random.uniform());
-  for (const std::size_t size : {0u, 1u, 7u, 8u, 100u, 12287u, 12288u, 12289u, 24576u, 39999u})
+  for (const std::size_t size : {0u, 1u, 7u, 8u, 100u, 12287u, 12288u, 12289u, 24576u, 39999u}) {
     EXPECT_EQ(crc32c(bytes.data() + 1, size), slow_crc32c(bytes.data() + 1, size)) << size;
+    std::vector<unsigned char> copy(size + 1);
+    EXPECT_EQ(copy_checked(copy.data() + 1, bytes.data() + 1, size).checksum, crc32c(bytes.data() + 1, size)) << size;
+    EXPECT_TRUE(std::equal(copy.begin() + 1, copy.end(), bytes.begin() + 1)) << size;
+  }
 }
 
 TEST(AllFinite, OneBadValueAnywhere_IsFound) {
@@ -40,6 +44,8 @@ TEST(AllFinite, OneBadValueAnywhere_IsFound) {
       std::vector<double> spoilt = values;
       spoilt[at] = bad;
       EXPECT_FALSE(all_finite(spoilt.data(), spoilt.size())) << bad << " at " << at;
+      std::vector<double> copy(spoilt.size());
+      EXPECT_FALSE(copy_checked(copy.data(), spoilt.data(), 8 * spoilt.size()).finite) << bad << " at " << at;
     }
 }
 
