@@ -15,6 +15,7 @@ ExitCode code_of(int status) {
     case 3:
     case 5:
     case 6:
+    case 130:
       return static_cast<ExitCode>(status);
     default:
       return ExitCode::participant_lost;

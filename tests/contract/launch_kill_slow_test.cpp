@@ -11,7 +11,7 @@ class RealRun : public LauncherStage, public ::testing::WithParamInterface<const
   void start_and_wait_for_rows() {
     real_programs_ = true;
     start({"run", "case.toml", "--out", "run", "--set", "run.until=100 ms", "--set", "coupling.window=step", "--set",
-           "levels.coarse.charge=2000"});
+           "levels.coarse.charge=2000", "--set", "run.stand_off=600 mm"});
     ASSERT_TRUE(wait_until([&] { return rows() > 3; }, 60.0)) << errors();
   }
   long rows() const {
@@ -56,6 +56,19 @@ TEST_P(RealRun, ProcessFrozenInMidRun_EndsTheRun) {
   EXPECT_EQ(finish(15.0), 4);
   EXPECT_NE(errors().find(GetParam()), std::string::npos) << errors();
   expect_all_gone(before);
+}
+
+TEST_P(RealRun, ProcessTerminatedInMidRun_SavesFirstAndEndsWith130) {
+  start_and_wait_for_rows();
+  const auto before = processes();
+  ASSERT_EQ(before.size(), 3u);
+  kill(before.at(GetParam()), SIGTERM);
+  EXPECT_EQ(finish(40.0), 130) << "a window and a checkpoint later; " << errors();
+  EXPECT_NE(errors().find(std::string(GetParam()) + ": interrupted by SIGTERM; a checkpoint holds"), std::string::npos)
+      << errors();
+  EXPECT_EQ(record()["status"], "interrupted");
+  for (const auto& [name, pid] : before) EXPECT_NE(kill(pid, 0), 0) << name << " outlived the launcher";
+  EXPECT_FALSE(sockets_left());
 }
 
 INSTANTIATE_TEST_SUITE_P(EachOfThree, RealRun, ::testing::Values("broker", "particles", "structure"));

@@ -36,6 +36,13 @@ TEST(FirstCause, BrokerSawOnlyALostConnection_StatusOfThatProcessCounts) {
   EXPECT_EQ(cause->what, "ended with exit status 5");
 }
 
+TEST(FirstCause, SignalToOneProcess_IsAnInterruption) {
+  const Ends ends{{"structure", false, 130}, {"particles", false, 130}};
+  const auto cause = first_cause(ends, FailedEvent{"structure", 130, "interrupted by SIGTERM", 2});
+  EXPECT_EQ(cause->who, "structure");
+  EXPECT_EQ(cause->code, ExitCode::interrupted);
+}
+
 TEST(FirstCause, FrozenProcess_IsWhatTheBrokerSays) {
   const auto cause = first_cause({}, FailedEvent{"structure", 4, "no heartbeat for 5 s", 2});
   EXPECT_EQ(cause->who, "structure");
