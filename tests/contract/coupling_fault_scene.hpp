@@ -156,6 +156,8 @@ class FaultScene {
     link.ready({0.001, 0.0});
     while (const auto grant = link.next()) {
       reach("particles", "window " + std::to_string(grant->window));
+      // A signal is looked for every 0.1 s; the run must not be over by then.
+      if (fault_.what.starts_with("sig")) std::this_thread::sleep_for(std::chrono::milliseconds(20));
       link.advance(SurfaceLoad{mesh.position}, {});
     }
     link.finish("{}");
