@@ -4,7 +4,7 @@
 
 #include "coupling/case/checks.hpp"
 #include "coupling/case/derive.hpp"
-#include "coupling/case/effect_rules.hpp"
+#include "coupling/case/effects/registry.hpp"
 #include "coupling/case/layers.hpp"
 #include "coupling/case/resolved_text.hpp"
 
@@ -19,6 +19,9 @@ void decide(CaseSpec& spec, const Settings& settings, Diagnostics& diagnostics) 
   spec.effects = std::move(decisions.effects);
   for (const std::string& name : decisions.idle)
     diagnostics.warning(settings.blame({"effects." + name}), name + " = \"on\" has nothing to act on and stays off");
+  for (const std::string& name : decisions.indelible)
+    diagnostics.warning(settings.blame({"effects." + name}), name + " = \"off\" cannot be left out and stays on");
+  leave_out_what_is_off(spec);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "coupling/case/effect_rules.hpp"
+#include "coupling/case/effects/registry.hpp"
 #include "coupling/case/near_word.hpp"
 #include "coupling/case/references.hpp"
 

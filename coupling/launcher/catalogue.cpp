@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "coupling/case/effect_rules.hpp"
+#include "coupling/case/effects/registry.hpp"
 #include "coupling/case/near_word.hpp"
 #include "coupling/case/presets.hpp"
 #include "coupling/case/schema.hpp"
@@ -148,13 +148,18 @@ std::string unknown_key_text(const std::string& name) {
 
 OrderedJson effects_json() {
   OrderedJson list = OrderedJson::array();
-  for (const EffectRule& rule : effect_rules()) list.push_back({{"name", rule.name}, {"doc", rule.doc}});
+  for (const Effect& rule : effect_rules())
+    list.push_back({{"name", rule.name}, {"doc", rule.doc}, {"rule", rule.rule}, {"without", rule.without}});
   return list;
 }
 
 std::string effects_text() {
-  Rows rows{{"effect", "what it is"}};
-  for (const EffectRule& rule : effect_rules()) rows.push_back({rule.name, rule.doc});
+  Rows rows{{"effect", "what it is; when a scene calls for it; what a result misses without it"}};
+  for (const Effect& rule : effect_rules()) {
+    rows.push_back({rule.name, rule.doc});
+    rows.push_back({"", std::string("  ") + rule.rule});
+    rows.push_back({"", std::string("  without: ") + rule.without});
+  }
   return table_text(rows, {false, false}) +
          "each case decides by its physics, see `standoff plan CASE`; [effects] of the case overrides: NAME = \"on\" "
          "or "

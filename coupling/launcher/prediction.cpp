@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "coupling/case/effects/registry.hpp"
 #include "coupling/case/structural_models.hpp"
 
 namespace standoff::launch {
@@ -12,7 +13,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double gauss_points = 64.0;                                            // 4 x 4 x 4 in a cubic hexahedron
 constexpr double gas_bytes = 120.0, grain_bytes = 160.0, history_bytes = 160.0;  // a particle with its share of lists
-constexpr double gauss_point_bytes = 200.0, factor_bytes = 12e3;  // per Gauss point; of the factor, likewise
+constexpr double gauss_point_bytes = 200.0;                                      // per Gauss point
 
 double cube(double x) {
   return x * x * x;
@@ -203,27 +204,36 @@ void add_wall(const CaseSpec& spec, int cores, const CostConstants& c, CostPredi
   p.wall_s = c.start_up + p.packing_s + loading + p.exchange_s + p.relaxation_s / speedup(p.structure_threads, c);
 }
 
-/// Bytes and one-core seconds that go with an effect; what is not listed is free.
-EffectPrice price_of(const EffectDecision& effect, const CaseSpec& spec, const CostConstants& c,
-                     const CostPrediction& p) {
-  EffectPrice price{effect.name, effect.on, effect.reason, 0.0, 0.0};
-  if (!effect.on) return price;
-  const double grains = p.simulated(p.sand_particles), gas = p.simulated(p.charge_particles);
-  const double points = gauss_points * p.simulated(p.elements);
-  const std::string& name = effect.name;
-  if (name == "air") price.bytes = p.awake_air / p.copies * gas_bytes, price.seconds = p.air_s;
-  if (name == "friction")
-    price.bytes = grains * history_bytes, price.seconds = p.sand_steps * grains * c.grain_friction;
-  if (name == "damping") price.seconds = p.sand_steps * grains * c.grain_damping;
-  if (name == "radius_spread") price.bytes = grains * 2.0 * sizeof(double);
-  if (name == "detonation_timing") price.bytes = gas * (sizeof(double) + 1.0 + sizeof(Vec3));
-  if (name == "internal_energy") price.bytes = gas * sizeof(double), price.seconds = 0.1 * p.gas_s;
-  if (name == "hardening") price.bytes = points * 10.0 * sizeof(double), price.seconds = 0.35 * p.structure_s;
-  if (name == "strain_rate") price.seconds = 0.08 * p.structure_s;
-  if (name == "heating") price.bytes = points * sizeof(double), price.seconds = 0.02 * p.structure_s;
-  if (name == "expansion") price.seconds = 0.01 * p.structure_s;
-  if (name == "relaxation" && spec.run.settle) price.bytes = points * factor_bytes, price.seconds = p.relaxation_s;
+/// What overriding a decision would add to the price: minus what an effect takes that is on, what one would take that
+/// is off and could be on.
+EffectPrice price_of(const Effect& effect, const EffectDecision& decision, const CaseSpec& spec,
+                     const SceneWork& work) {
+  EffectPrice price;
+  price.name = decision.name, price.on = decision.on, price.reason = decision.reason;
+  const EffectCost cost = effect.cost != nullptr ? effect.cost(spec, work) : EffectCost{};
+  if (decision.on) price.bytes = cost.bytes, price.seconds = std::max(0.0, cost.seconds);
+  const bool switched = effect.switched_by != nullptr && cost.seconds > 0.0;
+  const bool can_turn = decision.on ? !effect.inherent : effect.find(spec).possible || switched;
+  if (!can_turn) return price;
+  price.overriding = EffectCost{decision.on ? -cost.bytes : cost.bytes, decision.on ? -cost.seconds : cost.seconds};
+  price.without = effect.without;
+  if (!decision.on && switched) price.switched_by = effect.switched_by;
   return price;
+}
+
+/// The work of the scene; of air also where there is none, to price it.
+SceneWork work_of(const CaseSpec& spec, const CostConstants& c, const CostPrediction& p) {
+  CaseSpec in_air = spec;
+  in_air.air.on = true;
+  CostPrediction air = p;
+  if (!spec.air.on) plan_air(in_air, c, air);
+  SceneWork work;
+  work.gas = p.simulated(p.charge_particles), work.grains = p.simulated(p.sand_particles);
+  work.air = air.awake_air / p.copies, work.points = gauss_points * p.simulated(p.elements);
+  work.sand_steps = p.sand_steps, work.copies = p.copies, work.all_s = p.core_s();
+  work.gas_s = p.gas_s, work.air_s = air.air_s, work.sand_s = p.sand_s;
+  work.structure_s = p.structure_s, work.relaxation_s = p.relaxation_s;
+  return work;
 }
 
 }  // namespace
@@ -246,10 +256,12 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
   if (particle_threads > 0) p.particle_threads = particle_threads;
   if (structure_threads > 0) p.structure_threads = structure_threads;
   add_wall(spec, cores, constants, p);
-  for (const EffectDecision& effect : spec.effects) {
-    p.effects.push_back(price_of(effect, spec, constants, p));
-    if (effect.name == "relaxation") p.structure_bytes += p.effects.back().bytes;
-  }
+  const SceneWork work = work_of(spec, constants, p);
+  for (const EffectDecision& decision : spec.effects)
+    for (const Effect& effect : effect_rules())
+      if (decision.name == effect.name) p.effects.push_back(price_of(effect, decision, spec, work));
+  for (const EffectPrice& price : p.effects)
+    if (price.name == "relaxation") p.structure_bytes += price.bytes;
   return p;
 }
 

@@ -12,10 +12,11 @@
 //   window "auto"       a shear wave crosses at most one quad of the surface, and the plate moves at most a tenth of
 //   the
 //                       smallest particle radius
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "coupling/case/case_spec.hpp"
+#include "coupling/case/effects/effect.hpp"
 #include "coupling/launcher/cost_constants.hpp"
 
 namespace standoff::launch {
@@ -24,7 +25,10 @@ struct EffectPrice {
   std::string name;
   bool on = false;
   std::string reason;
-  double bytes = 0.0, seconds = 0.0;  // of one core
+  double bytes = 0.0, seconds = 0.0;     // of one core
+  std::optional<EffectCost> overriding;  // what turning it round adds; nothing: it cannot be turned round
+  std::string without;                   // what a result misses without it
+  std::string switched_by;               // the key that does it, if not [effects]
 };
 
 struct CostPrediction {

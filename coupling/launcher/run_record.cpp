@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coupling/base/state_hash.hpp"
+#include "coupling/case/effects/registry.hpp"
 
 namespace standoff::launch {
 namespace {
@@ -84,7 +85,10 @@ std::optional<double> momentum_error(const std::map<std::string, json>& reports,
   return std::hypot(sum[0], sum[1], sum[2]) / scale;
 }
 
+/// Absent where particles meet the surface at rest: they do no work on it.
 std::optional<double> work_error(const CaseSpec& spec, const RunFacts& facts) {
+  const auto recedes = std::ranges::find(spec.effects, "surface_recession", &EffectDecision::name);
+  if (recedes != spec.effects.end() && !recedes->on) return std::nullopt;
   double error = facts.largest_work_error, work = facts.largest_external_work;
   if (facts.interface_ledger) {
     const double copies = spec.copies();
@@ -124,15 +128,13 @@ void add_conservation(json& merged, const CaseSpec& spec, const RunFacts& facts,
 }
 
 /// Stages that exist for one effect alone: their seconds are its measured price.
-std::optional<double> stage_seconds(const std::string& effect, const json& merged) {
-  constexpr std::array<std::array<const char*, 2>, 3> stages{
-      {{"relaxation", "timing.structure.stages.relax"},
-       {"relaxation", "timing.structure.stages.polish"},
-       {"detonation_timing", "timing.particle.stages.detonate"}}};
+std::optional<double> stage_seconds(const std::string& name, const json& merged) {
+  const auto effect = std::ranges::find(effect_rules(), name, &Effect::name);
+  if (effect == effect_rules().end()) return std::nullopt;
   std::optional<double> sum;
-  for (const auto& [name, key] : stages)
-    if (const json* seconds = effect == name ? member(merged, key) : nullptr)
-      sum = sum.value_or(0.0) + seconds->get<double>();
+  for (const std::string& stage : effect->stages)
+    for (const char* side : {"timing.particle.stages.", "timing.structure.stages."})
+      if (const json* seconds = member(merged, side + stage)) sum = sum.value_or(0.0) + seconds->get<double>();
   return sum;
 }
 

@@ -60,9 +60,8 @@ NamedValues ParticleBooks::sample(double time) {
     if (spec_.effect("friction")) row.emplace_back("friction_loss_J", full * energy.friction_loss);
     if (spec_.effect("damping")) row.emplace_back("damping_loss_J", full * energy.damping_loss);
   }
-  row.insert(row.end(), {{"boundary_work_J", full * energy.inflow},
-                         {"escaped_J", full * energy.escaped},
-                         {"work_to_structure_J", full * energy.work_to_structure}});
+  row.insert(row.end(), {{"boundary_work_J", full * energy.inflow}, {"escaped_J", full * energy.escaped}});
+  if (spec_.effect("surface_recession")) row.emplace_back("work_to_structure_J", full * energy.work_to_structure);
   return row;
 }
 

@@ -16,6 +16,7 @@ namespace {
 SheetOptions sheet_options(const CaseSpec& spec) {
   SheetOptions options;
   options.quarter = spec.run.quarter_symmetry;
+  options.recedes = spec.effect("surface_recession");
   if (spec.plate.surround == "rigid") options.surround_half_size = 0.5 * spec.plate.surround_size;
   return options;
 }

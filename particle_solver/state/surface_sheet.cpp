@@ -20,7 +20,7 @@ std::size_t at(std::int32_t i) {
 }  // namespace
 
 SurfaceSheet::SurfaceSheet(SurfaceMesh mesh, const SheetOptions& options)
-    : plate_nodes_(mesh.position.size()), plate_faces_(mesh.quads.size()) {
+    : plate_nodes_(mesh.position.size()), plate_faces_(mesh.quads.size()), recedes_(options.recedes) {
   RingedMesh ringed = add_rigid_ring(std::move(mesh), options.quarter, options.surround_half_size);
   mesh_ = std::move(ringed.mesh);
   search_ = SurfaceSearch(mesh_, surface_topology(mesh_, std::move(ringed.weld), options.quarter));
@@ -30,7 +30,7 @@ SurfaceSheet::SurfaceSheet(SurfaceMesh mesh, const SheetOptions& options)
   inverse_mass_.resize(nodes);
   const SurfaceTopology& topology = search_.topology();
   for (std::size_t n = 0; n < nodes; ++n) {
-    const double inverse = 1.0 / mesh_.node_mass[n];
+    const double inverse = options.recedes ? 1.0 / mesh_.node_mass[n] : 0.0;
     inverse_mass_[n] = {topology.on_mirror_x[n] ? 0.0 : inverse, topology.on_mirror_y[n] ? 0.0 : inverse, inverse};
   }
   window_impulse_.assign(plate_nodes_, {}), pending_.assign(plate_nodes_, {}), node_impulse_.assign(plate_nodes_, {});
@@ -43,6 +43,7 @@ void SurfaceSheet::begin_window(const SurfaceMotion& motion, bool keep_pending) 
                                                " positions and " + std::to_string(motion.velocity.size()) +
                                                " velocities, the surface mesh " + std::to_string(plate_nodes_) +
                                                " nodes; the structure process broke the protocol");
+  if (!recedes_) return;
   std::copy(motion.position.begin(), motion.position.end(), position_.begin());
   std::copy(motion.velocity.begin(), motion.velocity.end(), velocity_.begin());
   for (std::size_t n = 0; keep_pending && n < plate_nodes_; ++n) velocity_[n] += scaled(inverse_mass_[n], pending_[n]);

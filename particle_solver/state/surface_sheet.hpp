@@ -26,7 +26,8 @@ namespace standoff::particles {
 struct SheetOptions {
   bool quarter = false;  // the mesh covers x >= 0, y >= 0 only
   double surround_half_size =
-      0.0;  // m; > 0 adds a rigid ring from the mesh edge to this half width at the edge's height
+      0.0;              // m; > 0 adds a rigid ring from the mesh edge to this half width at the edge's height
+  bool recedes = true;  // false: particles meet the surface at rest, and do no work on it
 };
 
 /// A point of the sheet seen from a position in space.
@@ -126,6 +127,7 @@ class SurfaceSheet {
   SurfaceMesh mesh_;
   SurfaceSearch search_;
   std::size_t plate_nodes_ = 0, plate_faces_ = 0;
+  bool recedes_ = true;
   std::vector<Vec3> position_, velocity_;  // all nodes
   std::vector<Vec3> inverse_mass_;         // 1/kg by axis; 0 on the ring and across a mirror plane
   std::vector<Vec3> window_impulse_,

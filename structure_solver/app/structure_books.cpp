@@ -67,9 +67,11 @@ nlohmann::json StructureBooks::report(const StructuralModel& model, const Relaxa
   // A model without elements cannot deform: a zero would read as a result.
   if (model.elements() > 0) {
     results["peak_centre_deflection_m"] = peak_deflection_;
-    results["max_plastic_strain"] = extremes.max_plastic_strain;
-    results["centre_plastic_strain"] = extremes.centre_plastic_strain;
-    results["max_plastic_strain_away_from_clamp"] = extremes.max_plastic_strain_away_from_clamp;
+    if (spec_.effect("plasticity")) {
+      results["max_plastic_strain"] = extremes.max_plastic_strain;
+      results["centre_plastic_strain"] = extremes.centre_plastic_strain;
+      results["max_plastic_strain_away_from_clamp"] = extremes.max_plastic_strain_away_from_clamp;
+    }
     if (spec_.effect("strain_rate")) results["max_strain_rate_per_s"] = extremes.max_strain_rate;
     if (spec_.effect("heating")) results["max_temperature_rise_K"] = extremes.max_temperature_rise;
   }

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "coupling/case/effect_rules.hpp"
+#include "coupling/case/effects/registry.hpp"
 #include "coupling/case/presets.hpp"
 #include "coupling/case/schema.hpp"
 #include "tests/unit/case_folder.hpp"

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "coupling/case/case_reader.hpp"
-#include "coupling/case/effect_rules.hpp"
+#include "coupling/case/effects/registry.hpp"
 #include "coupling/case/presets.hpp"
 #include "coupling/case/schema.hpp"
 #include "coupling/launcher/catalogue.hpp"

@@ -1,0 +1,45 @@
+#pragma once
+// Every effect that exists: one line each, in the order in which they are told.
+#include <map>
+#include <vector>
+
+#include "coupling/case/effects/effect.hpp"
+
+// clang-format off
+#define STANDOFF_EFFECTS(X) \
+  X(detonation_timing) \
+  X(internal_energy) \
+  X(co_volume) \
+  X(air) \
+  X(ambient_pressure) \
+  X(friction) \
+  X(damping) \
+  X(radius_spread) \
+  X(hard_core) \
+  X(symmetry) \
+  X(surface_recession) \
+  X(plasticity) \
+  X(hardening) \
+  X(strain_rate) \
+  X(heating) \
+  X(expansion) \
+  X(relaxation)
+// clang-format on
+
+namespace standoff {
+
+const std::vector<Effect>& effect_rules();
+const std::vector<std::string>& effect_names();
+
+struct EffectDecisions {
+  std::vector<EffectDecision> effects;  // in the order of the rules
+  std::vector<std::string> idle;        // switched on by the case although there is nothing to act on: they stay off
+  std::vector<std::string> indelible;   // switched off by the case although the scene needs them: they stay on
+};
+
+/// `stated`: effect name to on or off, from [effects].
+EffectDecisions decide_effects(const CaseSpec& spec, const std::map<std::string, bool>& stated);
+/// Takes what is off out of the specification, so that nothing of it reaches a solver.
+void leave_out_what_is_off(CaseSpec& spec);
+
+}  // namespace standoff
