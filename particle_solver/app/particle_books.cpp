@@ -59,6 +59,8 @@ NamedValues ParticleBooks::sample(double time) {
                            {"sand_front_radius_m", front_radius()}});
     if (spec_.effect("friction")) row.emplace_back("friction_loss_J", full * energy.friction_loss);
     if (spec_.effect("damping")) row.emplace_back("damping_loss_J", full * energy.damping_loss);
+    for (const auto& effect : loop_.effects())
+      row.emplace_back(std::string(effect->name()) + "_loss_J", full * effect->books.loss);
   }
   row.insert(row.end(), {{"boundary_work_J", full * energy.inflow}, {"escaped_J", full * energy.escaped}});
   if (spec_.effect("surface_recession")) row.emplace_back("work_to_structure_J", full * energy.work_to_structure);

@@ -47,6 +47,7 @@ TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
     pairs_->forces(scene.sand, 0.0);
     contact_ = std::make_unique<SurfaceContact>(surface_contact_options(spec, scene.sand_law->law.stiffness, threads));
     if (spec.effect("hard_core")) hard_core_ = std::make_unique<HardCore>();
+    effects_ = particle_effects(spec, threads);
   }
   if (scene.has_air) {
     air_collide_ = std::make_unique<AirCollide>(spec.run.seed, threads);
@@ -79,6 +80,8 @@ void TimeLoop::compose() {
   auto kick = [this](double, double h) { half_kick(scene_.sand, h, threads_); };
   if (sand) {
     add(begin_step_, "sand_integrate", kick);
+    for (const auto& effect : effects_)
+      add(begin_step_, effect->name(), [this, one = effect.get()](double, double h) { one->run(scene_.sand, h); });
     add(begin_step_, "surface_contact", [this](double, double h) {
       const SurfaceContactCounts now = contact_->run(scene_.sand, scene_.sheet, h);
       totals_.impulse_sand += now.plate_impulse;
@@ -223,6 +226,7 @@ ParticleEnergy TimeLoop::energy() const {
     energy.friction_loss = pairs_->books().friction_loss;
     energy.damping_loss = pairs_->books().damping_loss;
     energy.contact_loss = totals_.contact_loss;
+    for (const auto& effect : effects_) energy.effect_loss += effect->books.loss;
   }
   if (scene_.has_air) {
     const GasTotals air = gas_totals(scene_.air->particles);
@@ -241,6 +245,7 @@ Vec3 TimeLoop::momentum_everywhere() const {
   if (scene_.has_gas) sum += gas_totals(scene_.gas).momentum;
   if (scene_.has_air) sum += gas_totals(scene_.air->particles).momentum - books_.inflow_momentum;
   if (scene_.has_sand) sum += momentum(scene_.sand) + pairs_->books().mirror_impulse;
+  for (const auto& effect : effects_) sum += effect->books.momentum;
   return sum;
 }
 
@@ -248,6 +253,7 @@ double TimeLoop::impulse_scale() const {
   double scale = norm(books_.mirror_impulse) + norm(books_.escaped_momentum) + norm(scene_.sheet.total_impulse()) +
                  norm(scene_.sheet.surround_impulse());
   if (scene_.has_sand) scale += norm(pairs_->books().mirror_impulse);
+  for (const auto& effect : effects_) scale += norm(effect->books.momentum);
   if (scene_.has_air) scale += norm(books_.inflow_momentum);
   return scale;
 }

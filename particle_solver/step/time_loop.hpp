@@ -2,7 +2,8 @@
 // The time loop of the particle process: the stages this scene calls for, composed once, then called in order.
 //
 //   one sand step dt                                                          one gas sub-step h = dt / n
-//   sand_integrate (half kick) -> surface_contact -> boundaries -> n x [ detonate -> gas_collide -> gas_drift ]
+//   sand_integrate (half kick) -> stages of effects/ -> surface_contact -> boundaries -> n x [ detonate -> gas_collide
+//   -> gas_drift ]
 //                  -> sand_pairs -> sand_integrate (half kick) -> hard_core
 // Air, where there is some, moves at the beginning of a window: air_collide -> air_drift -> air_boundaries.
 //
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "coupling/base/stage_timer.hpp"
+#include "particle_solver/effects/particle_effect.hpp"
 #include "particle_solver/ledger/particle_ledger.hpp"
 #include "particle_solver/scene/scene.hpp"
 #include "particle_solver/step/air_boundaries.hpp"
@@ -60,6 +62,7 @@ class TimeLoop {
   const BoundaryBooks& boundary_books() const { return books_; }
   const BoundaryTotals& boundary_totals() const { return boundaries_.totals(); }
   const SandBooks& sand_books() const;
+  const std::vector<std::unique_ptr<ParticleEffect>>& effects() const { return effects_; }
   const StageTimers& timers() const { return timers_; }
   void forget_times() { timers_.reset(); }
   ParticleEnergy energy() const;
@@ -78,6 +81,7 @@ class TimeLoop {
       timers_);
     if (air_collide_) a(*scene_.air, *air_collide_);
     if (!pairs_) return;
+    for (const auto& effect : effects_) a(effect->books);
     SandPairsMemory memory;
     if constexpr (!Archive::reading) memory = pairs_->memory(scene_.sand);
     a(memory);
@@ -103,6 +107,7 @@ class TimeLoop {
   std::unique_ptr<SandPairs> pairs_;
   std::unique_ptr<SurfaceContact> contact_;
   std::unique_ptr<HardCore> hard_core_;
+  std::vector<std::unique_ptr<ParticleEffect>> effects_;
   std::unique_ptr<AirCollide> air_collide_;
   std::unique_ptr<AirDrift> air_drift_;
   std::unique_ptr<AirBoundaries> air_boundaries_;

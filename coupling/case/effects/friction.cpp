@@ -1,4 +1,4 @@
-// Effect friction: Coulomb friction between grains [Cundall & Strack, Geotechnique 29 (1979) 47].
+// Effect friction: Coulomb friction between grains [Geotechnique 29 (1979) 47].
 #include <fmt/format.h>
 
 #include "coupling/case/effects/effect.hpp"

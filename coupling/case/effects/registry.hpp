@@ -16,6 +16,7 @@
   X(damping) \
   X(radius_spread) \
   X(hard_core) \
+  X(air_drag) \
   X(symmetry) \
   X(surface_recession) \
   X(plasticity) \
