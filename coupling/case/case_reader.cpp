@@ -17,10 +17,10 @@ void decide(CaseSpec& spec, const Settings& settings, Diagnostics& diagnostics) 
     if (const std::string word = settings.word("effects." + name); !word.empty()) stated[name] = word == "on";
   EffectDecisions decisions = decide_effects(spec, stated);
   spec.effects = std::move(decisions.effects);
-  for (const std::string& name : decisions.idle)
-    diagnostics.warning(settings.blame({"effects." + name}), name + " = \"on\" has nothing to act on and stays off");
-  for (const std::string& name : decisions.indelible)
-    diagnostics.warning(settings.blame({"effects." + name}), name + " = \"off\" cannot be left out and stays on");
+  for (const auto& [name, why] : decisions.unreachable)
+    diagnostics.error(settings.blame({"effects." + name}),
+                      name + " = \"" + settings.word("effects." + name) + "\" cannot reach the physics: " + why,
+                      "leave it out, turn it round, or change what the reason names");
   leave_out_what_is_off(spec);
 }
 

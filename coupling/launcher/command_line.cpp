@@ -202,6 +202,7 @@ Action add_cost(CLI::App& app) {
       ->type_name("DIR");
   add_threads(verb, options->threads);
   add_max_time(verb, *texts, "wall-clock limit of one run");
+  verb.add_flag("--effects", options->effects, "what each effect costs and changes, at one level");
   verb.add_flag("--quiet", options->quiet, "print the table only");
   return [options, texts, budget] {
     options->overrides = with_set(options->overrides, *texts);

@@ -41,6 +41,14 @@ std::optional<std::string> finished_run(const std::string& study_folder, const P
 /// Figures of a run folder; exit_code from its run.json.
 CostRun cost_run_of(const std::string& run_folder, const PlannedRun& planned);
 
+/// Makes or reuses one run below `folder` and adds its figures to `runs`. Returns the cause if the study itself must
+/// end (interrupted, wrong case).
+std::optional<Cause> make_run(const CostOptions& options, const PlannedRun& planned, const std::string& title,
+                              const std::string& folder, std::vector<CostRun>& runs);
+
+/// `path`, made if it is not there; throws Stop(bad_case) if it cannot be.
+std::string ensured_folder(const std::string& path);
+
 /// Starts a program, waits, passes its output on; obeys signals. Nothing if it ended with status 0.
 std::optional<Cause> run_to_end(const std::string& name, const std::vector<std::string>& argv,
                                 const std::function<void(const std::string& line)>& take);

@@ -10,6 +10,7 @@
 #include "coupling/base/stop.hpp"
 #include "coupling/launcher/child_process.hpp"
 #include "coupling/launcher/cost_study.hpp"
+#include "coupling/launcher/effect_study.hpp"
 #include "coupling/launcher/report_script.hpp"
 #include "coupling/launcher/run_folder.hpp"
 #include "coupling/launcher/text_format.hpp"
@@ -35,12 +36,7 @@ void write_state(const std::string& folder, const CostStudy& study, const char* 
 
 /// The newest unfinished study of the same inputs, or a new folder.
 std::string study_folder(const CostOptions& options, const CostStudy& study) {
-  if (!options.out.empty()) {
-    std::error_code error;
-    files::create_directories(options.out, error);
-    if (error) throw Stop(ExitCode::bad_case, fmt::format("cannot create {}: {}", options.out, error.message()));
-    return options.out;
-  }
+  if (!options.out.empty()) return ensured_folder(options.out);
   const std::string base = "runs/" + file_name_of(study.name);
   std::error_code ignored;
   for (const auto& entry : files::directory_iterator(base, ignored)) {
@@ -117,7 +113,15 @@ std::string outcome(const CostRun& run) {
                      1e3 * (at_rest ? run.permanent_m : run.peak_m), run.impulse_Ns, run.seconds);
 }
 
-/// Makes or reuses one run. Returns the cause if the study itself must end (interrupted, wrong case).
+}  // namespace
+
+std::string ensured_folder(const std::string& path) {
+  std::error_code error;
+  files::create_directories(path, error);
+  if (error) throw Stop(ExitCode::bad_case, fmt::format("cannot create {}: {}", path, error.message()));
+  return path;
+}
+
 std::optional<Cause> make_run(const CostOptions& options, const PlannedRun& planned, const std::string& title,
                               const std::string& folder, std::vector<CostRun>& runs) {
   auto run_folder = finished_run(folder, planned);
@@ -140,6 +144,8 @@ std::optional<Cause> make_run(const CostOptions& options, const PlannedRun& plan
   return std::nullopt;
 }
 
+namespace {
+
 void draw(const std::string& folder) {
   const std::string trouble = run_report_script("cost_figure.py", {folder});
   if (!trouble.empty()) std::printf("no figure was drawn: %s; cost.csv holds the numbers\n", trouble.c_str());
@@ -148,6 +154,7 @@ void draw(const std::string& folder) {
 }  // namespace
 
 int cost_verb(const CostOptions& options) {
+  if (options.effects) return effect_cost_verb(options);
   const CostStudy study = plan_study(options);
   const std::string folder = study_folder(options, study);
   announce(options, study, folder);

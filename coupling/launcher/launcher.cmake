@@ -15,7 +15,7 @@ set(standoff_write_facts ${CMAKE_COMMAND}
 execute_process(COMMAND ${standoff_write_facts})
 add_custom_target(standoff_build_facts COMMAND ${standoff_write_facts} BYPRODUCTS ${STANDOFF_FACT_HEADER} VERBATIM)
 add_dependencies(standoff_launcher standoff_build_facts)
-install(FILES ${CMAKE_SOURCE_DIR}/coupling/report/cell_figure.py ${CMAKE_SOURCE_DIR}/coupling/report/cost_figure.py
+install(FILES ${CMAKE_SOURCE_DIR}/coupling/report/cell_figure.py ${CMAKE_SOURCE_DIR}/coupling/report/cost_figure.py ${CMAKE_SOURCE_DIR}/coupling/report/cost_effects_figure.py
               ${CMAKE_SOURCE_DIR}/coupling/report/flow_figure.py ${CMAKE_SOURCE_DIR}/coupling/report/run_figure.py
               ${CMAKE_SOURCE_DIR}/coupling/report/run_report.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/standoff/report)

@@ -63,6 +63,7 @@ struct CostOptions {
   ThreadOptions threads;
   double max_time = 0.0;
   bool quiet = false;
+  bool effects = false;  // price the effects instead of the levels
 };
 int cost_verb(const CostOptions& options);
 

@@ -130,6 +130,20 @@ Vec3 Boundaries::turn_round(SandState& sand) const {
   return impulse;
 }
 
+void Boundaries::take_out(SandState& sand, const std::vector<std::uint32_t>& out, BoundaryBooks& books) {
+  if (out.empty()) return;
+  for (const std::uint32_t i : out) {
+    const double mass = sand.mass_of(i);
+    books.escaped_momentum += sand.velocity[i] * mass;
+    books.escaped_energy += 0.5 * mass * squared_norm(sand.velocity[i]);
+    totals_.sand_mass += mass;
+    totals_.sand_rebound += rebound(sand.plate_rebound, i);
+  }
+  totals_.sand += static_cast<long>(out.size());
+  drop(sand.grain_radius, out), drop(sand.grain_mass, out), drop(sand.position, out), drop(sand.velocity, out);
+  drop(sand.force, out), drop(sand.plate_rebound, out), drop(sand.id, out);
+}
+
 const BoundaryChanges& Boundaries::run(GasState* gas, SandState* sand, const SurfaceSheet* sheet,
                                        BoundaryBooks& books) {
   const Limits now = limits(sheet);
@@ -138,18 +152,7 @@ const BoundaryChanges& Boundaries::run(GasState* gas, SandState* sand, const Sur
   if (gas != nullptr) find(*gas, now, changes_.gas);
   if (sand != nullptr) find(*sand, now, changes_.sand);
   if (gas != nullptr) take_out(*gas, changes_.gas, books);
-  for (const std::uint32_t i : changes_.sand) {
-    const double mass = sand->mass_of(i);
-    books.escaped_momentum += sand->velocity[i] * mass;
-    books.escaped_energy += 0.5 * mass * squared_norm(sand->velocity[i]);
-    totals_.sand_mass += mass;
-    totals_.sand_rebound += rebound(sand->plate_rebound, i);
-  }
-  totals_.sand += static_cast<long>(changes_.sand.size());
-  if (const auto& out = changes_.sand; !out.empty()) {
-    drop(sand->grain_radius, out), drop(sand->grain_mass, out), drop(sand->position, out), drop(sand->velocity, out);
-    drop(sand->force, out), drop(sand->plate_rebound, out), drop(sand->id, out);
-  }
+  if (sand != nullptr) take_out(*sand, changes_.sand, books);
   return changes_;
 }
 

@@ -45,6 +45,7 @@ class Boundaries {
   const BoundaryChanges& run(GasState* gas, SandState* sand, const SurfaceSheet* sheet, BoundaryBooks& books);
   /// Takes the gas particles named by `out` (ascending) out and books them.
   void take_out(GasState& gas, const std::vector<std::uint32_t>& out, BoundaryBooks& books);
+  void take_out(SandState& sand, const std::vector<std::uint32_t>& out, BoundaryBooks& books);
   const BoundaryTotals& totals() const { return totals_; }
   template <class Archive>
   void archive(Archive& a) {

@@ -48,6 +48,7 @@ TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
     contact_ = std::make_unique<SurfaceContact>(surface_contact_options(spec, scene.sand_law->law.stiffness, threads));
     if (spec.effect("hard_core")) hard_core_ = std::make_unique<HardCore>();
     effects_ = particle_effects(spec, threads);
+    if (spec.effect("drop_outgoing")) drop_outgoing_ = std::make_unique<DropOutgoing>(scene.sand, scene.centre);
   }
   if (scene.has_air) {
     air_collide_ = std::make_unique<AirCollide>(spec.run.seed, threads);
@@ -94,6 +95,10 @@ void TimeLoop::compose() {
   // Between the half kick and the drift no force is pending: a grain may leave without its neighbours losing momentum.
   add(begin_step_, "boundaries",
       [this, gas, sand](double, double) { boundaries_.run(gas, sand, &scene_.sheet, books_); });
+  if (drop_outgoing_)
+    add(begin_step_, "drop_outgoing", [this](double, double) {
+      boundaries_.take_out(scene_.sand, drop_outgoing_->find(scene_.sand, scene_.sheet), books_);
+    });
   if (scene_.has_air) compose_air();
   if (gas) {
     if (!gas->all_released()) add(sub_step_, "detonate", [this](double time, double) { detonate(scene_.gas, time); });

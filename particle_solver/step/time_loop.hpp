@@ -22,6 +22,7 @@
 #include "particle_solver/step/air_collide.hpp"
 #include "particle_solver/step/air_drift.hpp"
 #include "particle_solver/step/boundaries.hpp"
+#include "particle_solver/step/drop_outgoing.hpp"
 #include "particle_solver/step/gas_collide.hpp"
 #include "particle_solver/step/hard_core.hpp"
 #include "particle_solver/step/surface_contact.hpp"
@@ -107,6 +108,7 @@ class TimeLoop {
   std::unique_ptr<SandPairs> pairs_;
   std::unique_ptr<SurfaceContact> contact_;
   std::unique_ptr<HardCore> hard_core_;
+  std::unique_ptr<DropOutgoing> drop_outgoing_;
   std::vector<std::unique_ptr<ParticleEffect>> effects_;
   std::unique_ptr<AirCollide> air_collide_;
   std::unique_ptr<AirDrift> air_drift_;

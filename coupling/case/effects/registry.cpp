@@ -40,11 +40,10 @@ EffectDecision decide(const Effect& rule, const CaseSpec& spec, const bool* stat
   const EffectFinding finding = rule.find(spec);
   EffectDecision decision{rule.name, finding.possible && finding.wanted, finding.reason, stated != nullptr};
   if (stated == nullptr) return decision;
-  const bool idle = *stated && !finding.possible, indelible = !*stated && rule.inherent && decision.on;
-  if (idle) decisions.idle.emplace_back(rule.name);
-  if (indelible) decisions.indelible.emplace_back(rule.name);
-  if (!indelible) decision.on = *stated && finding.possible;
-  decision.reason = (idle || indelible ? "stated by the case, but " : "stated by the case; ") + finding.reason;
+  decision.on = *stated;
+  decision.reason = "stated by the case; " + finding.reason;
+  if (*stated && !finding.possible) decisions.unreachable[rule.name] = finding.reason;
+  if (!*stated && rule.inherent && finding.possible && finding.wanted) decisions.unreachable[rule.name] = rule.without;
   return decision;
 }
 

@@ -17,6 +17,7 @@
   X(radius_spread) \
   X(hard_core) \
   X(air_drag) \
+  X(drop_outgoing) \
   X(symmetry) \
   X(surface_recession) \
   X(plasticity) \
@@ -24,7 +25,9 @@
   X(strain_rate) \
   X(heating) \
   X(expansion) \
-  X(relaxation)
+  X(large_deformation) \
+  X(relaxation) \
+  X(energy_audit)
 // clang-format on
 
 namespace standoff {
@@ -34,8 +37,8 @@ const std::vector<std::string>& effect_names();
 
 struct EffectDecisions {
   std::vector<EffectDecision> effects;  // in the order of the rules
-  std::vector<std::string> idle;        // switched on by the case although there is nothing to act on: they stay off
-  std::vector<std::string> indelible;   // switched off by the case although the scene needs them: they stay on
+  // Overrides that cannot reach the physics, with the reason: on with nothing to act on, or off where it is inherent.
+  std::map<std::string, std::string> unreachable;
 };
 
 /// `stated`: effect name to on or off, from [effects].
