@@ -244,7 +244,8 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
   p.copies = spec.copies();
   if (spec.plate.model == material_point_model) {  // no plate, no charge, no windows: milliseconds of curves
     for (const EffectDecision& effect : spec.effects)
-      p.effects.push_back({effect.name, effect.on, effect.reason, 0, 0});
+      p.effects.emplace_back().name = effect.name, p.effects.back().on = effect.on,
+      p.effects.back().reason = effect.reason;
     p.particle_threads = 0, p.structure_threads = 1, p.wall_s = constants.start_up;
     return p;
   }

@@ -38,6 +38,8 @@ def change(turned, plain, key):
     if not seeds:
         return math.nan, 0.0
     scale = statistics.fmean(float(plain[s][key]) for s in seeds)
+    if scale == 0.0:
+        return math.nan, 0.0
     values = [100.0 * (float(turned[s][key]) - float(plain[s][key])) / scale for s in seeds]
     error = statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
     return statistics.fmean(values), error

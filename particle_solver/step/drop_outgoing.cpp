@@ -33,7 +33,9 @@ const std::vector<std::uint32_t>& DropOutgoing::find(const SandState& sand, cons
   for (std::size_t i = 0; i < sand.size(); ++i) {
     const Vec3 arm = sand.position[i] - centre_;
     if (squared_norm(arm) < body_radius_ * body_radius_ || dot(arm, sand.velocity[i]) <= 0.0) continue;
-    if (sand.force[i] == Vec3{} && passes_the_surface(sand.position[i], sand.velocity[i], sand.radius_of(i), surface))
+    const double radius = sand.radius_of(i);
+    if (sand.force[i] == Vec3{} && passes_the_surface(centre_, arm, radius, surface) &&
+        passes_the_surface(sand.position[i], sand.velocity[i], radius, surface))
       out_.push_back(static_cast<std::uint32_t>(i));
   }
   return out_;

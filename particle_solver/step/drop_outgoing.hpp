@@ -2,7 +2,8 @@
 // Stage drop_outgoing: names the grains that can no longer reach the plate, for `boundaries` to take out and book.
 //
 // A grain is named when (1) it has left the body: farther from the charge than any grain began, and moving away; (2) no
-// contact force acts on it; and (3) its free flight misses plate and cover (kernels/free_flight.hpp). Exact for grains
+// contact force acts on it; and (3) its free flight misses plate and cover (kernels/free_flight.hpp), and so does what
+// flies behind it straight from the charge, so that grains thrown back from the plate are kept. Exact for grains
 // that nothing overtakes; what products behind would still give to a grain that flies past the plate is left out.
 #include <cstdint>
 #include <vector>

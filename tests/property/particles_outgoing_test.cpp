@@ -86,7 +86,7 @@ TEST(DropOutgoing_OfSandThatFliesApart, ChangesNothingOnThePlate_AndKeepsTheBook
   EXPECT_LT(on.left, off.left / 2) << "more than half of a ball flies past";
   EXPECT_LT(off.impulse, -1.0) << "N s: the plate must have been hit";
   EXPECT_NEAR(on.impulse, off.impulse, 1e-12 * std::abs(off.impulse));
-  EXPECT_NEAR(on.energy_error, off.energy_error, 1e-9);
+  EXPECT_LT(on.energy_error, 1.01 * off.energy_error) << "of velocity Verlet, in contacts that both runs have";
   EXPECT_LT(on.momentum_error, 1e-11);
   EXPECT_TRUE(on.has_row);
   EXPECT_FALSE(off.has_row);

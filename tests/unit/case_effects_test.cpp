@@ -84,46 +84,6 @@ TEST(Effects, StatedByTheCase_OverridesTheRule) {
   EXPECT_THROW(spec.effect("gravity"), std::out_of_range);
 }
 
-// What is off leaves nothing behind in the specification for a solver to compute.
-TEST(Effects, LeftOut_ReachTheLawsOfTheSoil) {
-  const auto wet = [](const char* effect) {
-    return read_case(cases + "/borvik_2011/wet_150mm", with_set({{effect, "off"}})).spec.soil;
-  };
-  EXPECT_GT(wet("effects.friction").damping, 0.0);
-  EXPECT_EQ(wet("effects.damping").damping, 0.0);
-  EXPECT_GT(wet("effects.damping").radius_spread, 0.0);
-  EXPECT_EQ(wet("effects.radius_spread").radius_spread, 0.0);
-  const SoilSpec dry = read_case(cases + "/borvik_2011/dry_150mm", with_set({{"effects.friction", "off"}})).spec.soil;
-  EXPECT_EQ(dry.friction, 0.0);
-}
-
-// On with nothing to act on, or off where nothing could take its place: one error each, with the reason.
-TEST(Effects, OverridesThatCannotReachThePhysics_AreErrors) {
-  const auto error = [](std::vector<std::pair<std::string, std::string>> set) {
-    const CaseRead read = read_case(cases + "/borvik_2011/dry_150mm", with_set(std::move(set)));
-    return read.errors.size() == 1 ? read.errors[0] : "errors: " + std::to_string(read.errors.size());
-  };
-  EXPECT_THAT(error({{"soil.friction", "0"}, {"effects.friction", "on"}}), HasSubstr("mu = 0"));
-  EXPECT_THAT(error({{"effects.damping", "on"}}), HasSubstr("damping = \"on\" cannot reach the physics: xi = 0"));
-  EXPECT_THAT(error({{"effects.air", "on"}}), HasSubstr("air.mode = \"off\""));
-  EXPECT_THAT(error({{"plate.material.C", "0"}}), HasSubstr("strain_rate = \"on\" cannot reach the physics: C = 0"));
-  EXPECT_THAT(error({{"effects.co_volume", "off"}}), HasSubstr("co_volume = \"off\" cannot reach the physics"));
-}
-
-// The paper's model: air only round the bare charge, friction only in dry sand, dashpots and unlike grains only in wet.
-TEST(Effects, OfTheNineReferenceCases_AreThoseOfThePaper) {
-  for (const std::string kind : {"bare", "dry", "wet"})
-    for (const std::string distance : {"150", "200", "250"}) {
-      const CaseRead read = read_case(cases + "/borvik_2011/" + kind + "_" + distance + "mm");
-      ASSERT_EQ(all_errors(read), "");
-      for (const char* name : {"air", "ambient_pressure"}) EXPECT_EQ(read.spec.effect(name), kind == "bare") << name;
-      EXPECT_EQ(read.spec.effect("friction"), kind == "dry");
-      for (const char* name : {"damping", "radius_spread"}) EXPECT_EQ(read.spec.effect(name), kind == "wet") << name;
-      for (const char* name : {"strain_rate", "heating", "expansion"})
-        EXPECT_TRUE(decision(read, name).on && decision(read, name).overridden) << name;
-    }
-}
-
 TEST(Fingerprint, ChangesWithWhatAResultDependsOn_AndOnlyWithThat) {
   const auto hash = [](const char* key, const char* value) {
     return read_case(cases + "/borvik_2011/dry_150mm", with_set({{key, value}})).hash;

@@ -23,6 +23,7 @@ Effect ambient_pressure() {
       .rule = "on with air: still air gives the front of the plate the same, so a plate in it stays at rest",
       .without = "a vacuum behind the plate: the ambient pressure on its front is part of the impulse",
       .find = find,
+      .needs = "air",
   };
 }
 

@@ -29,6 +29,7 @@ Effect expansion() {
       .without = "heat does not strain the plate",
       .find = find,
       .cost = cost,
+      .needs = "heating",
   };
 }
 

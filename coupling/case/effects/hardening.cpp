@@ -36,6 +36,7 @@ Effect hardening() {
       .without = "perfectly plastic: the plate gives way more, and strain gathers in hinges",
       .find = find,
       .cost = cost,
+      .needs = "plasticity",
   };
 }
 

@@ -33,6 +33,7 @@ Effect heating() {
       .without = "the plate stays cold and a little too hard; no temperature is stored",
       .find = find,
       .cost = cost,
+      .needs = "plasticity",
       .results = {"max_temperature_rise_K"},
   };
 }

@@ -28,12 +28,13 @@ const std::vector<std::string>& effect_names() {
 
 namespace {
 
-/// Without plastic flow nothing hardens, and nothing is heated by it.
-void leave_out_what_needs_flow(std::vector<EffectDecision>& effects) {
+/// Without air there is no ambient pressure, without plastic flow nothing hardens. An effect stands after what it
+/// needs.
+void leave_out_what_lacks_its_ground(std::vector<EffectDecision>& effects) {
   const auto named = [&](std::string_view name) { return std::ranges::find(effects, name, &EffectDecision::name); };
-  if (named("plasticity")->on) return;
-  for (const char* name : {"hardening", "strain_rate", "heating", "expansion"})
-    if (EffectDecision& effect = *named(name); effect.on) effect.on = false, effect.reason = "plasticity is off";
+  for (const Effect& rule : effect_rules())
+    if (EffectDecision& effect = *named(rule.name); effect.on && rule.needs != nullptr && !named(rule.needs)->on)
+      effect.on = false, effect.reason = std::string(rule.needs) + " is off";
 }
 
 EffectDecision decide(const Effect& rule, const CaseSpec& spec, const bool* stated, EffectDecisions& decisions) {
@@ -55,7 +56,7 @@ EffectDecisions decide_effects(const CaseSpec& spec, const std::map<std::string,
     const auto it = stated.find(rule.name);
     decisions.effects.push_back(decide(rule, spec, it != stated.end() ? &it->second : nullptr, decisions));
   }
-  leave_out_what_needs_flow(decisions.effects);
+  leave_out_what_lacks_its_ground(decisions.effects);
   return decisions;
 }
 

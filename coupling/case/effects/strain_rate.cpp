@@ -36,6 +36,7 @@ Effect strain_rate() {
       .without = "the plate is too soft by what the rate adds to its yield stress: it bulges further",
       .find = find,
       .cost = cost,
+      .needs = "plasticity",
       .results = {"max_strain_rate_per_s"},
   };
 }
