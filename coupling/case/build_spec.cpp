@@ -54,12 +54,22 @@ void charge(const Fields& from, ChargeSpec& to) {
   from.get("charge.explosive.detonation_speed", to.explosive.detonation_speed);
 }
 
+SoilShape shape_named(const std::string& word) {
+  if (word == "sphere") return SoilShape::sphere;
+  if (word == "cylinder") return SoilShape::cylinder;
+  return word == "box" ? SoilShape::box : SoilShape::shell;
+}
+
 void soil(const Fields& from, SoilSpec& to) {
   const std::string kind = from.word("soil.kind");
   to.kind = kind == "dry" ? SoilKind::dry : kind == "wet" ? SoilKind::wet : SoilKind::none;
   if (to.kind == SoilKind::none) return;
+  to.shape = shape_named(from.word("soil.body"));
   from.get("soil.inner_radius", to.inner_radius);
   from.get("soil.outer_radius", to.outer_radius);
+  from.get("soil.height", to.height);
+  from.get("soil.size", to.size);
+  from.get("soil.centre", to.centre);
   from.get("soil.packing", to.packing);
   from.get("soil.grain_density", to.grain_density);
   from.get("soil.bulk_density", to.bulk_density);

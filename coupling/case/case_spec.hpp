@@ -36,10 +36,16 @@ struct ChargeSpec {
 
 enum class SoilKind { none, dry, wet };
 
-/// Sand as a packed cell of spheres repeated and cut to a shell [Borvik 2011, sec. 3.3].
+enum class SoilShape { shell, sphere, cylinder, box };
+
+/// Sand as a packed cell of spheres repeated and cut to a body [Borvik 2011, sec. 3.3]; its geometry is soil_body.hpp.
 struct SoilSpec {
   SoilKind kind = SoilKind::none;
-  double inner_radius = 0.0, outer_radius = 0.0;  // m, shell about the charge centre
+  SoilShape shape = SoilShape::shell;
+  double inner_radius = 0.0, outer_radius = 0.0;  // m: cavity about the charge centre; shell, sphere or cylinder
+  double height = 0.0;                            // m, cylinder
+  Vec3 size;                                      // m, box
+  Vec3 centre;                                    // m, of all but the shell, which lies about the charge centre
   double packing = 0.0;                           // solid fraction of the cell
   double grain_density = 0.0;                     // kg/m3
   double bulk_density = 0.0;                      // kg/m3; = packing * grain_density

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "coupling/case/soil_body.hpp"
+
 namespace standoff {
 namespace {
 
@@ -27,7 +29,7 @@ class SceneCheck {
 
   void run() {
     if (spec_.charge.present) charge(), detonator();
-    if (spec_.soil.kind != SoilKind::none) sand();
+    if (spec_.soil.kind != SoilKind::none) sand(), sand_and_charge();
     stand_off();
     plate();
     domain();
@@ -62,12 +64,38 @@ class SceneCheck {
       diagnostics_.warning(settings_.blame(size),
                            fmt::format("mass in radius gives {:.0f} kg/m3, denser than the explosive ({:.0f} kg/m3)",
                                        mean, c.explosive.density));
-    const Paths cavity{"charge.radius", "charge.mass", "soil.inner_radius"};
-    if (spec_.soil.kind != SoilKind::none && usable(cavity))
-      finding(c.radius > spec_.soil.inner_radius * (1.0 + touching), cavity,
-              fmt::format("the charge is larger than its cavity: radius {} against inner_radius {}", mm(c.radius),
-                          mm(spec_.soil.inner_radius)),
-              "make the cavity larger or the charge smaller");
+  }
+
+  /// Keys that give the body of sand its size and place.
+  Paths sand_paths() const {
+    if (spec_.soil.shape == SoilShape::shell) return {"run.stand_off", "soil.outer_radius"};
+    Paths paths{"soil.centre"};
+    paths.emplace_back(spec_.soil.shape == SoilShape::box ? "soil.size" : "soil.outer_radius");
+    if (spec_.soil.shape == SoilShape::cylinder) paths.emplace_back("soil.height");
+    return paths;
+  }
+  SoilBody body() const { return {spec_.soil, {0.0, 0.0, spec_.run.stand_off}}; }
+
+  /// The charge lies in its cavity, and the cavity in the sand; or the charge is outside of the sand.
+  void sand_and_charge() {
+    const bool shell = spec_.soil.shape == SoilShape::shell;  // about the charge, wherever that is
+    Paths paths = shell ? Paths{} : sand_paths();
+    if (!shell) paths.emplace_back("run.stand_off");
+    paths.emplace_back("soil.inner_radius");
+    if (!usable(paths)) return;
+    const double cavity = spec_.soil.inner_radius, size = spec_.charge.radius;
+    const double depth = -body().beyond_outside({0.0, 0.0, spec_.run.stand_off});  // of the charge centre in the sand
+    finding(!shell && cavity > 0.0 && depth < cavity * (1.0 - touching), paths,
+            fmt::format("the cavity reaches out of the sand: its centre is {} deep, inner_radius {}", mm(depth),
+                        mm(cavity)),
+            "a charge outside of the sand needs no cavity: inner_radius = \"0 mm\"");
+    if (!spec_.charge.present || !usable({"charge.radius", "charge.mass"}) ||
+        (!shell && cavity == 0.0 && depth <= -size))
+      return;
+    finding(
+        size > cavity * (1.0 + touching), {"charge.radius", "charge.mass", "soil.inner_radius"},
+        fmt::format("the charge is larger than its cavity: radius {} against inner_radius {}", mm(size), mm(cavity)),
+        "make the cavity larger or the charge smaller");
   }
 
   void detonator() {
@@ -88,11 +116,16 @@ class SceneCheck {
   void sand() {
     const SoilSpec& s = spec_.soil;
     const Paths radii{"soil.inner_radius", "soil.outer_radius"};
-    if (usable(radii))
+    if (s.shape == SoilShape::shell && usable(radii))
       finding(
           s.inner_radius >= s.outer_radius, radii,
           fmt::format("inner_radius {} is not smaller than outer_radius {}", mm(s.inner_radius), mm(s.outer_radius)),
           "the sand is a shell between the two");
+    const Paths place{"soil.centre", "run.symmetry"};
+    if (s.shape != SoilShape::shell && usable(place))
+      finding(spec_.run.quarter_symmetry && (s.centre.x != 0.0 || s.centre.y != 0.0), place,
+              "quarter symmetry needs the centre of the sand on the z axis",
+              "run.symmetry = \"none\" computes everything");
     const Paths densities{"soil.packing", "soil.grain_density", "soil.bulk_density"};
     if (usable(densities))
       finding(std::abs(s.packing * s.grain_density / s.bulk_density - 1.0) > 1e-3, densities,
@@ -103,16 +136,24 @@ class SceneCheck {
 
   void stand_off() {
     const bool sand = spec_.soil.kind != SoilKind::none;
-    const double radius =
-        std::max(sand ? spec_.soil.outer_radius : 0.0, spec_.charge.present ? spec_.charge.radius : 0.0);
-    Paths paths{"run.stand_off"};
-    if (sand) paths.emplace_back("soil.outer_radius");
-    if (spec_.charge.present) paths.emplace_back("charge.radius");
-    if (radius == 0.0 || !usable(paths)) return;
-    finding(spec_.run.stand_off < radius * (1.0 - touching), paths,
-            fmt::format("the {} overlaps the plate: stand_off {} is smaller than its radius {}",
-                        sand && spec_.soil.outer_radius >= spec_.charge.radius ? "sand" : "charge",
-                        mm(spec_.run.stand_off), mm(radius)),
+    const ChargeSpec& c = spec_.charge;
+    if (sand && usable(sand_paths())) {
+      const SoilBody soil = body();
+      const double lowest = soil.centre().z - soil.half_size().z;
+      const bool shell = spec_.soil.shape == SoilShape::shell;
+      finding(lowest < -touching * soil.half_size().z, sand_paths(),
+              shell ? fmt::format("the sand overlaps the plate: stand_off {} is smaller than its radius {}",
+                                  mm(spec_.run.stand_off), mm(spec_.soil.outer_radius))
+                    : fmt::format("the sand overlaps the plate: its lower end is at z = {}", mm(lowest)),
+              shell ? "stand_off is from the charge centre to the loaded face; equal to the radius means just touching"
+                    : "the loaded face of the plate is at z = 0; equal to it means just touching");
+      if (lowest < 0.0 && shell) return;
+    }
+    const Paths paths{"run.stand_off", "charge.radius"};
+    if (!c.present || !usable(paths)) return;
+    finding(spec_.run.stand_off < c.radius * (1.0 - touching), paths,
+            fmt::format("the charge overlaps the plate: stand_off {} is smaller than its radius {}",
+                        mm(spec_.run.stand_off), mm(c.radius)),
             "stand_off is from the charge centre to the loaded face; equal to the radius means just touching");
   }
 
@@ -189,18 +230,27 @@ class SceneCheck {
               fmt::format("the domain is smaller than the scene: it begins at z = {}, the plate reaches z = {}",
                           mm(low.z), mm(-spec_.plate.size.z)),
               "particles that leave the domain are removed");
-    const bool sand = spec_.soil.kind != SoilKind::none;
-    if (!sand && !spec_.charge.present) return;
-    const std::string body = sand ? "soil.outer_radius" : "charge.radius";
-    const double radius = sand ? spec_.soil.outer_radius : spec_.charge.radius;
-    check_side(radius, low.x, high.x, sand ? "sand" : "charge", "x", {"domain.lower", "domain.upper", body});
-    check_side(radius, low.y, high.y, sand ? "sand" : "charge", "y", {"domain.lower", "domain.upper", body});
-    const Paths above{"domain.upper", "run.stand_off", body};
-    const double top = spec_.run.stand_off + radius;
+    if (spec_.soil.kind != SoilKind::none && usable(sand_paths())) {
+      const SoilBody soil = body();
+      inside("sand", soil.centre(), soil.half_size(), sand_paths());
+    }
+    const bool in_sand =
+        spec_.soil.kind != SoilKind::none && body().beyond_outside({0.0, 0.0, spec_.run.stand_off}) < 0.0;
+    if (spec_.charge.present && !in_sand && usable({"charge.radius", "run.stand_off"}))
+      inside("charge", {0.0, 0.0, spec_.run.stand_off}, Vec3{1.0, 1.0, 1.0} * spec_.charge.radius,
+             {"charge.radius", "run.stand_off"});
+  }
+  /// A body with its centre and half extents lies in the domain.
+  void inside(const char* what, const Vec3& centre, const Vec3& half, const Paths& body) {
+    const auto with = [&](Paths paths) { return paths.insert(paths.end(), body.begin(), body.end()), paths; };
+    const Paths sides = with({"domain.lower", "domain.upper"}), above = with({"domain.upper"});
+    check_side(std::abs(centre.x) + half.x, spec_.domain.lower.x, spec_.domain.upper.x, what, "x", sides);
+    check_side(std::abs(centre.y) + half.y, spec_.domain.lower.y, spec_.domain.upper.y, what, "y", sides);
+    const double top = centre.z + half.z;
     if (usable(above))
-      finding(high.z < top, above,
-              fmt::format("the domain is smaller than the scene: it ends at z = {}, the {} at z = {}", mm(high.z),
-                          sand ? "sand" : "charge", mm(top)),
+      finding(spec_.domain.upper.z < top, above,
+              fmt::format("the domain is smaller than the scene: it ends at z = {}, the {} at z = {}",
+                          mm(spec_.domain.upper.z), what, mm(top)),
               "particles that leave the domain are removed");
   }
   void check_side(double half, double low, double high, const char* what, const char* axis, const Paths& paths) {

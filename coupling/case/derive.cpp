@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "coupling/case/presets.hpp"
 
@@ -46,6 +47,7 @@ class Completion {
     follow_effects();
     defaults();
     charge_geometry();
+    soil_body();
     domain_box();
     duration();
     surface_friction();
@@ -156,6 +158,28 @@ class Completion {
     s_.add("charge.detonator", at);
   }
 
+  void soil_body() {
+    if (!has_soil_ || s_.is_wrong("soil.body") || s_.word("soil.body") == "shell") return;
+    if (!s_.has("soil.inner_radius")) derive("soil.inner_radius", 0.0, "no cavity stated");
+    if (!s_.has("soil.centre") && good("run.stand_off"))
+      derive("soil.centre", Triple{0.0, 0.0, s_.number("run.stand_off")}, "the charge centre");
+  }
+
+  /// Half the extent of the sand in x and y, and the upper end of what is not about the charge; 0 where not known.
+  std::pair<double, double> extent_of_sand() const {
+    const std::string body = s_.word("soil.body");
+    const bool box = body == "box", cylinder = body == "cylinder";
+    if (!has_soil_ || !good(box ? "soil.size" : "soil.outer_radius") || (cylinder && !good("soil.height"))) return {};
+    const Triple size = box ? s_.triple("soil.size") : Triple{};
+    const double across = box ? 0.5 * std::max(size[0], size[1]) : s_.number("soil.outer_radius");
+    if (body == "shell") return {across, 0.0};
+    const double up = box ? 0.5 * size[2] : cylinder ? 0.5 * s_.number("soil.height") : across;
+    const double centre = good("soil.centre")     ? s_.triple("soil.centre")[2]
+                          : good("run.stand_off") ? s_.number("run.stand_off")
+                                                  : 0.0;
+    return {across, centre + up};
+  }
+
   /// The corners follow from `size` if that was stated above them; else from the scene.
   void domain_box() {
     const Setting* size = s_.find("domain.size");
@@ -168,14 +192,14 @@ class Completion {
     double half = 0.6;
     if (good("plate.size")) half = std::max({half, s_.triple("plate.size")[0], s_.triple("plate.size")[1]});
     if (good("plate.surround_size")) half = std::max(half, 0.75 * s_.number("plate.surround_size"));
-    double outer = 0.0;
-    for (const char* radius : {"soil.outer_radius", "charge.radius"})
-      if (good(radius)) outer = std::max(outer, s_.number(radius));
+    const auto [sand, top] = extent_of_sand();
+    double outer = sand;
+    if (good("charge.radius")) outer = std::max(outer, s_.number("charge.radius"));
     half = std::max(half, 4.0 * outer);
     const double stand_off = good("run.stand_off") ? s_.number("run.stand_off") : 0.0;
     const double beyond = std::max(0.8, 4.0 * outer);
     derive("domain.lower", Triple{-half, -half, -behind}, "the scene with room to spread");
-    derive("domain.upper", Triple{half, half, stand_off + beyond}, "the scene with room to spread");
+    derive("domain.upper", Triple{half, half, std::max(stand_off, top) + beyond}, "the scene with room to spread");
   }
   void corner(const std::string& path, const Triple& value, const Setting& size) {
     s_.add(path, {value, size.origin + ", domain.size", size.place, size.rank});
@@ -208,6 +232,13 @@ class Completion {
          {"packing", "grain_density", "bulk_density", "stiffness", "friction", "damping", "radius_spread"})
       if (!s_.is_wrong("soil.packing")) require(std::string("soil.") + key);
   }
+  void require_body() {
+    const std::string body = s_.word("soil.body");
+    if (s_.is_wrong("soil.body")) return;
+    require("soil.inner_radius");  // only a shell can lack it
+    require(body == "box" ? "soil.size" : "soil.outer_radius", "the body is a " + body);
+    if (body == "cylinder") require("soil.height", "the body is a cylinder");
+  }
   void require_all() {
     if (has_charge_) {
       require("charge.mass");
@@ -216,7 +247,7 @@ class Completion {
           require(std::string("charge.explosive.") + key, "a table without preset states everything");
     }
     if (has_soil_) {
-      require("soil.inner_radius"), require("soil.outer_radius");
+      require_body();
       require_soil();
     }
     if (has_charge_ || has_soil_) require("run.stand_off");

@@ -65,9 +65,20 @@ constexpr KeyEntry entries[] = {
     // ---- sand ----
     {"soil.kind", choice, quantity::none, any, "none|dry|wet", "none",
      "Sand about the charge. dry and wet bring the base parameters of the paper.", "[Borvik 2011, sec. 3.3]"},
+    {"soil.body", choice, quantity::none, any, "shell|sphere|cylinder|box", "shell",
+     "Shape that is filled with sand: a shell about the charge centre; a ball, a cylinder with its axis along z or a "
+     "box, "
+     "each about soil.centre."},
     {"soil.inner_radius", KeyKind::quantity, quantity::length, not_negative, "", "",
-     "Inner radius of the shell of sand: the cavity for the charge."},
-    {"soil.outer_radius", KeyKind::quantity, quantity::length, positive, "", "", "Outer radius of the shell of sand."},
+     "Radius of the cavity for the charge, about the charge centre. A shell states it; other bodies have none if it is "
+     "not "
+     "given."},
+    {"soil.outer_radius", KeyKind::quantity, quantity::length, positive, "", "",
+     "Outer radius of the shell, sphere or cylinder of sand."},
+    {"soil.height", KeyKind::quantity, quantity::length, positive, "", "", "Height of a cylinder of sand, along z."},
+    {"soil.size", quantities, quantity::length, positive, "", "", "Edges of a box of sand along x, y and z."},
+    {"soil.centre", quantities, quantity::length, any, "", "",
+     "Centre of a sphere, cylinder or box of sand; that of the charge, [0, 0, stand_off], if not given."},
     {"soil.packing", number, quantity::none, packing_limit, "", "",
      "Solid fraction of the cell; no packing of equal spheres exceeds 0.74.", "[Borvik 2011, sec. 3.3]"},
     {"soil.grain_density", KeyKind::quantity, quantity::density, positive, "", "",
@@ -166,13 +177,8 @@ constexpr KeyEntry entries[] = {
     {"contact.surface_restitution", number, quantity::none, fraction, "soil", "0",
      "Grain against plate: 0 stops the normal motion, 1 reflects it, \"soil\" uses the soil's own spring law.",
      "Holloman et al. 2015: wet glass sand on a rigid block transmits 1.0 to 1.1 times its momentum"},
-    {"contact.surface_friction",
-     number,
-     quantity::none,
-     {0.0, 10.0, false, false},
-     "soil",
-     "0",
-     "Coulomb coefficient of a grain on the plate; \"soil\" takes soil.friction."},
+    {"contact.surface_friction", number, quantity::none, fraction, "soil", "0",
+     "Coulomb coefficient of a grain on the plate, 0 to 1; \"soil\" takes soil.friction."},
 
     // ---- plate ----
     {"plate.model", choice, quantity::none, any, structural_model_words, "plate_hex64",

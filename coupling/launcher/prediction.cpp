@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "coupling/case/effects/registry.hpp"
+#include "coupling/case/soil_body.hpp"
 #include "coupling/case/structural_models.hpp"
 
 namespace standoff::launch {
@@ -28,18 +29,17 @@ double sound_speed(const MaterialSpec& m) {
   return std::sqrt(m.youngs_modulus * (1.0 - nu) / (m.density * (1.0 + nu) * (1.0 - 2.0 * nu)));
 }
 
-double shell_volume(const SoilSpec& soil) {
-  if (soil.kind == SoilKind::none) return 0.0;
-  return 4.0 / 3.0 * pi * (cube(soil.outer_radius) - cube(soil.inner_radius));
+double sand_volume(const SoilSpec& soil) {
+  return soil.kind == SoilKind::none ? 0.0 : SoilBody(soil, {}).volume();
 }
 
 double sand_mass(const SoilSpec& soil) {
-  return shell_volume(soil) * soil.bulk_density;
+  return sand_volume(soil) * soil.bulk_density;
 }
 
 /// Volume of the body that goes with one grain, m3.
 double grain_cell(const SoilSpec& soil) {
-  return shell_volume(soil) / static_cast<double>(soil.particles);
+  return sand_volume(soil) / static_cast<double>(soil.particles);
 }
 
 Vec3 element_edges(const PlateSpec& plate) {
@@ -161,7 +161,8 @@ void plan_air(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
   const double energy = spec.charge.mass / e.density * e.energy, volume = box.x * box.y * spec.domain.upper.z;
   const double driver =
       bubble_speed(spec, std::sqrt(3.0 * (e.gamma - 1.0) * e.energy / e.density), e.energy / e.density);
-  const double outer = std::max(spec.charge.radius, spec.soil.kind == SoilKind::none ? 0.0 : spec.soil.outer_radius);
+  const Vec3 sand = spec.soil.kind == SoilKind::none ? Vec3{} : SoilBody(spec.soil, {}).half_size();
+  const double outer = std::max({spec.charge.radius, sand.x, sand.y, sand.z});
   const double density = static_cast<double>(spec.air.particles) / 0.9;
   p.air_particles = static_cast<long>(density * volume);
   p.air_steps = p.windows;

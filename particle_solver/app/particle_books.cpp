@@ -12,7 +12,7 @@ namespace standoff::particles {
 ParticleBooks::ParticleBooks(const CaseSpec& spec, const Scene& scene, const TimeLoop& loop)
     : spec_(spec), scene_(scene), loop_(loop) {
   ledger_.open(loop.energy(), loop.momentum_everywhere());
-  if (scene.has_sand) shock_.emplace(scene.sand, scene.centre, spec.soil.outer_radius);
+  if (scene.has_sand) shock_.emplace(scene.sand, scene.centre, SoilBody(spec.soil, scene.centre));
 }
 
 void ParticleBooks::observe(double time) {
@@ -62,7 +62,10 @@ NamedValues ParticleBooks::sample(double time) {
     for (const auto& effect : loop_.effects())
       row.emplace_back(std::string(effect->name()) + "_loss_J", full * effect->books.loss);
   }
-  row.insert(row.end(), {{"boundary_work_J", full * energy.inflow}, {"escaped_J", full * energy.escaped}});
+  if (scene_.has_gas) row.emplace_back("escaped_gas_J", full * energy.escaped_gas);
+  if (scene_.has_sand) row.emplace_back("escaped_sand_J", full * energy.escaped_sand);
+  if (scene_.has_air) row.emplace_back("escaped_air_J", full * energy.escaped_air);
+  row.insert(row.end(), {{"boundary_work_J", full * energy.inflow}, {"escaped_J", full * energy.escaped()}});
   if (spec_.effect("surface_recession")) row.emplace_back("work_to_structure_J", full * energy.work_to_structure);
   return row;
 }

@@ -5,7 +5,7 @@
 //   core:    |d| < (1 - depth/2) reach,  d = x_i - x_j, reach = r_i + r_j,  depth = 1/2 of the mean radius of the pair
 //   impulse: J = -2 m_red (v . n) n on i, -J on j, if v . n < 0;  v = v_i - v_j, n = d/|d|, 1/m_red = 1/m_i + 1/m_j
 //
-// The elastic impact of smooth spheres: Hertz-free rigid-body limit, e.g. Goldsmith, Impact (1960), sec. 1.2, e = 1.
+// The elastic impact of smooth spheres: rigid bodies with e = 1, e.g. Goldsmith, Impact (1960).
 // Momentum is exact, since J acts with both signs; energy, since (v . n) only changes its sign. Where the grains are
 // does not change, so the spring keeps what it has stored, pushes on, and gives it back as they part. The dashpot, if
 // there is one, works on the way in and out; what it would have taken deeper than the core is left out (an e of 0.97

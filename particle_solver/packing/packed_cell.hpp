@@ -3,7 +3,7 @@
 //
 // Random centres, full radii, then overlaps are relaxed without friction (relaxation.hpp). A fill of 0.60 becomes free
 // of overlap; 0.64 is random close packing, where a small overlap stays. It is a property of the material and is
-// reported: in a body with free surfaces it relaxes (sand_shell.hpp), in a periodic cell its pressure must be
+// reported: in a body with free surfaces it relaxes (sand_body.hpp), in a periodic cell its pressure must be
 // subtracted.
 #include <cstdint>
 #include <vector>

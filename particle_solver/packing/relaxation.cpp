@@ -7,13 +7,9 @@ namespace standoff::particles {
 
 namespace {
 
-/// Takes centres back to the nearer sphere along the radius.
-void hold(const ShellBounds& bounds, SandState& grains) {
-  for (Vec3& p : grains.position) {
-    const Vec3 from = p - bounds.centre;
-    const double r = norm(from), held = std::clamp(r, bounds.inner, bounds.outer);
-    if (held != r && r > 0.0) p = bounds.centre + (held / r) * from;
-  }
+void hold(const BodyBounds& bounds, SandState& grains) {
+  for (Vec3& p : grains.position)
+    if (bounds.body.beyond(p) > bounds.play) p = bounds.body.held(p, bounds.play);
 }
 
 /// One FIRE minimisation with unit masses; see the header for the equations.

@@ -50,11 +50,12 @@ std::unique_ptr<Air> build_air(const CaseSpec& spec) {
                                        0,
                                        {0.0, 0.0, spec.run.stand_off},
                                        0.0,
+                                       {},
                                        0.0});
   air->cross_section = cross_section(ambient, air->mean_free_path);
   air->still_speed = still_mach * std::sqrt(spec.air.gamma * spec.air.pressure / spec.air.density);
   if (spec.charge.present) air->body_radius = spec.charge.radius;
-  if (spec.soil.kind != SoilKind::none) air->body_radius = std::max(air->body_radius, spec.soil.outer_radius);
+  if (spec.soil.kind != SoilKind::none) air->sand.emplace(spec.soil, air->body_centre);
   GasState& gas = air->particles;
   gas.mass = ambient.particle_mass, gas.gamma = spec.air.gamma;
   gas.radius = std::cbrt(3.0 * wall_fill / (4.0 * std::numbers::pi * ambient.number_density()));

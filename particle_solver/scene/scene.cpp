@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "particle_solver/packing/charge.hpp"
-#include "particle_solver/packing/sand_shell.hpp"
+#include "particle_solver/packing/sand_body.hpp"
 #include "particle_solver/scene/ambient_air.hpp"
 #include "particle_solver/step/detonate.hpp"
 
@@ -37,7 +37,7 @@ Scene build_scene(const CaseSpec& spec, const SurfaceMesh& mesh, int threads) {
   if (scene.has_air) scene.air = build_air(spec);
   if (scene.has_sand) {
     SandBody body =
-        fill_shell(spec.soil, {.centre = scene.centre, .quarter = quarter, .seed = spec.run.seed, .threads = threads});
+        fill_body(spec.soil, {.centre = scene.centre, .quarter = quarter, .seed = spec.run.seed, .threads = threads});
     scene.sand = std::move(body.grains);
     scene.sand_cell_size = body.cell_size;
     scene.sand_residual_overlap = body.residual_overlap;

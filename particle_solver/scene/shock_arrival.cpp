@@ -5,12 +5,12 @@
 
 namespace standoff::particles {
 
-ShockArrival::ShockArrival(const SandState& sand, const Vec3& centre, double outer_radius) : centre_(centre) {
+ShockArrival::ShockArrival(const SandState& sand, const Vec3& centre, const SoilBody& body) : centre_(centre) {
   std::uint32_t highest_id = 0;
   for (const std::uint32_t id : sand.id) highest_id = std::max(highest_id, id);
   outermost_.assign(static_cast<std::size_t>(highest_id) + 1, 0);
   for (std::size_t i = 0; i < sand.size(); ++i)
-    outermost_[sand.id[i]] = norm(sand.position[i] - centre_) > outer_radius - 4.0 * sand.radius;
+    outermost_[sand.id[i]] = body.beyond_outside(sand.position[i]) > -4.0 * sand.radius;
 }
 
 void ShockArrival::observe(const SandState& sand, double time) {

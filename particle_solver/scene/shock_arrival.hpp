@@ -4,14 +4,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "coupling/case/soil_body.hpp"
 #include "particle_solver/state/media.hpp"
 
 namespace standoff::particles {
 
 class ShockArrival {
  public:
-  /// Marks the outermost grains of the body around `centre`; `outer_radius` of the body [m].
-  ShockArrival(const SandState& sand, const Vec3& centre, double outer_radius);
+  /// Marks the outermost grains of `body`; velocities are radial from the charge `centre` [m].
+  ShockArrival(const SandState& sand, const Vec3& centre, const SoilBody& body);
   /// Notes the mean radial velocity at `time`; kept until the maximum is past.
   void observe(const SandState& sand, double time);
   /// Time of arrival [s], or NaN if nothing moved yet.

@@ -46,7 +46,7 @@ void AirBoundaries::wake(Air& air, const GasState* products, const SandState* sa
       const Vec3 x = low + Vec3{width.x * random.uniform(), width.y * random.uniform(), width.z * random.uniform()};
       const Vec3 v = maxwell_velocity(air.ambient, random);
       const double internal = equilibrium_internal_energy(air.ambient, random);
-      if (norm(x - air.body_centre) < air.body_radius) continue;
+      if (norm(x - air.body_centre) < air.body_radius || (air.sand && air.sand->beyond_outside(x) < 0.0)) continue;
       add(air, x, v, internal, books);
       air.woken += 1.0;
     }

@@ -135,7 +135,8 @@ void Boundaries::take_out(SandState& sand, const std::vector<std::uint32_t>& out
   for (const std::uint32_t i : out) {
     const double mass = sand.mass_of(i);
     books.escaped_momentum += sand.velocity[i] * mass;
-    books.escaped_energy += 0.5 * mass * squared_norm(sand.velocity[i]);
+    const double energy = 0.5 * mass * squared_norm(sand.velocity[i]);
+    books.escaped_energy += energy, totals_.sand_energy += energy;
     totals_.sand_mass += mass;
     totals_.sand_rebound += rebound(sand.plate_rebound, i);
   }
@@ -151,7 +152,9 @@ const BoundaryChanges& Boundaries::run(GasState* gas, SandState* sand, const Sur
   if (options_.closed && sand != nullptr) books.mirror_impulse += turn_round(*sand);
   if (gas != nullptr) find(*gas, now, changes_.gas);
   if (sand != nullptr) find(*sand, now, changes_.sand);
+  const double before = books.escaped_energy;
   if (gas != nullptr) take_out(*gas, changes_.gas, books);
+  if (gas != nullptr && gas->disturbed.empty()) totals_.gas_energy += books.escaped_energy - before;  // not air
   if (sand != nullptr) take_out(*sand, changes_.sand, books);
   return changes_;
 }

@@ -36,6 +36,8 @@ struct BoundaryTotals {
   Vec3 last_slip;                                // m, where one of these was
   double sand_mass = 0.0;                        // kg; they are beyond every front radius
   double gas_rebound = 0.0, sand_rebound = 0.0;  // kg m/s, last plate rebound of particles taken out
+  double gas_energy = 0.0,
+         sand_energy = 0.0;  // J that products and sand carried out; the rest of what escaped is air's
 };
 
 class Boundaries {

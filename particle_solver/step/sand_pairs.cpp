@@ -42,6 +42,7 @@ struct SandPairs::Impl {
   bool same_grains(const SandState& sand) const;
   void copy_in(const SandState& sand);
   void moves_of_changed_set(const SandState& sand);
+  void book_removed(const std::vector<std::uint32_t>& place);
   void measure(const SandState& sand);
   void adapt_skin();
   void make_lists(const SandState& sand, std::span<const Vec3> list_position);
@@ -110,10 +111,37 @@ void SandPairs::Impl::copy_in(const SandState& sand) {
 void SandPairs::Impl::moves_of_changed_set(const SandState& sand) {
   std::vector<std::uint32_t> place(largest_id(sand.id, id) + 1, GrainHistory::nobody);
   for (std::size_t s = 0; s < sand.size(); ++s) place[sand.id[s]] = static_cast<std::uint32_t>(s);
+  if (ready) book_removed(place);
   for (std::size_t i = 0; i < id.size(); ++i) {
     if (place[id[i]] == GrainHistory::nobody) continue;
     const Vec3 move = sand.position[place[id[i]]] - Vec3{grains[i].x, grains[i].y, grains[i].z};
     moves[i].x = move.x, moves[i].y = move.y, moves[i].z = move.z;
+  }
+}
+
+/// Energy in the normal springs of grains that are no longer there, where they were last seen. `place` is by id.
+void SandPairs::Impl::book_removed(const std::vector<std::uint32_t>& place) {
+  const auto gone = [&](std::uint32_t i) { return place[id[i]] == GrainHistory::nobody; };
+  bool any_gone = false;
+  for (std::uint32_t i = 0; i < id.size() && !any_gone; ++i) any_gone = gone(i);
+  if (!any_gone) return;
+  const auto stored = [&](double overlap) {
+    return overlap > 0.0 ? 0.5 * options.law.stiffness * overlap * overlap : 0.0;
+  };
+  for (const GrainBlock& block : blocks) {
+    for (const PairList* list : {&block.inner, &block.rim})
+      for (std::size_t p = 0; p < list->count; ++p) {
+        const auto [i, j] = list->pairs[p];
+        if (i > j || !(gone(i) || gone(j))) continue;  // a rim pair is listed from both sides
+        const GrainRecord &a = grains[i], &b = grains[j];
+        const Vec3 d{a.x - b.x, a.y - b.y, a.z - b.z};
+        books.escaped_elastic += stored(a.w + b.w - norm(options.periodic_box ? shortest(d, box) : d));
+      }
+    for (std::uint32_t i = block.begin; options.mirrors.on && i < block.end; ++i) {
+      if (!gone(i)) continue;  // half of a spring to the own image is the grain's
+      books.escaped_elastic += 0.5 * stored(2.0 * (grains[i].w - grains[i].x));
+      books.escaped_elastic += 0.5 * stored(2.0 * (grains[i].w - grains[i].y));
+    }
   }
 }
 
@@ -173,6 +201,7 @@ void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at
     history.apply(blocks, old_index, options.threads);
     books.friction_loss += 0.5 * options.law.stiffness * history.finish();
   }
+  old_moves = {}, old_index = {};  // 36 bytes a grain that are not needed until the next list
   drift.restart(cells, contact, skin);
   list_box = box, calls_since_list = 0, ready = true;
   ++books.list_builds;

@@ -9,8 +9,10 @@
 //   sand arrays --copy in--> sorted records --pair lists by block--> forces --copy out--> SandState::force
 //
 // The order of the arrays in SandState is free and may change between calls; grains may be removed or added: springs
-// follow the ids. Pair lists are made anew when grains moved more than a skin against their neighbours
-// (search/grain_drift.hpp). The same bits for any number of threads.
+// follow the ids. What a removed grain's normal springs hold goes with it (escaped_elastic), its tangential springs are
+// friction loss. Overlaps at the first call are springs like any other and part of the first reading of the ledger: see
+// packing/relaxation.hpp for why they are small. Pair lists are made anew when grains moved more than a skin against
+// their neighbours (search/grain_drift.hpp). The same bits for any number of threads.
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,6 +43,7 @@ struct SandBooks {
   double elastic_energy = 0.0;           // stored now, normal and tangential springs
   double friction_loss = 0.0;            // since the start
   double damping_loss = 0.0;             // since the start
+  double escaped_elastic = 0.0;          // since the start, in normal springs of grains that were taken out
   double max_overlap_over_radius = 0.0;  // since the start; over the mean radius
   double overlap_over_radius = 0.0;      // largest now
   Vec3 mirror_impulse;                   // N s given to the mirror planes since the start
@@ -50,7 +53,8 @@ struct SandBooks {
   long list_builds = 0;
   template <class Archive>
   void archive(Archive& a) {
-    a(elastic_energy, friction_loss, damping_loss, max_overlap_over_radius, overlap_over_radius, mirror_impulse);
+    a(elastic_energy, friction_loss, damping_loss, escaped_elastic, max_overlap_over_radius, overlap_over_radius,
+      mirror_impulse);
     a(coordination, most_contacts, virial, list_builds);
   }
 };

@@ -90,6 +90,21 @@ SurfaceContactCounts SurfaceContact::resolve(SandState& sand, SurfaceSheet& shee
   return counts;
 }
 
+double SurfaceContact::stored_energy(const SandState& sand, const SurfaceSheet& sheet) {
+  if (!options_.spring) return 0.0;
+  if (sand.grain_radius.empty())
+    find<true>(sand, sheet, 0.0);
+  else
+    find<false>(sand, sheet, 0.0);
+  double sum = 0.0;
+  for (const std::vector<Touch>& part : found_)
+    for (const Touch& touch : part) {
+      const double overlap = sand.radius_of(touch.grain) - touch.where.gap;
+      sum += 0.5 * options_.soil.stiffness * overlap * overlap;
+    }
+  return sum;
+}
+
 SurfaceContactCounts SurfaceContact::run(SandState& sand, SurfaceSheet& sheet, double h, double sheet_time) {
   if (sand.plate_rebound.size() != sand.size())
     sand.plate_rebound.resize(sand.size(), std::numeric_limits<double>::quiet_NaN());

@@ -46,6 +46,9 @@ class SurfaceContact {
   /// Contacts of `sand` at its present positions; `h` [s] is the sand step. Does not move the sheet. `sheet_time` [s]
   /// is how far the sand stands into the sheet's present sub-step.
   SurfaceContactCounts run(SandState& sand, SurfaceSheet& sheet, double h, double sheet_time = 0.0);
+  /// J in the springs between `sand` and sheet as they lie; 0 with the impulse law. For the first reading of the
+  /// ledger: grains that are pressed into the plate at the start bring that energy with them.
+  double stored_energy(const SandState& sand, const SurfaceSheet& sheet);
 
  private:
   struct Touch {

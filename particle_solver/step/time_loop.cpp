@@ -46,6 +46,7 @@ TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
     pairs_ = std::make_unique<SandPairs>(*scene.sand_law);
     pairs_->forces(scene.sand, 0.0);
     contact_ = std::make_unique<SurfaceContact>(surface_contact_options(spec, scene.sand_law->law.stiffness, threads));
+    totals_.contact_elastic = contact_->stored_energy(scene.sand, scene.sheet);
     if (spec.effect("hard_core")) hard_core_ = std::make_unique<HardCore>();
     effects_ = particle_effects(spec, threads);
     if (spec.effect("drop_outgoing")) drop_outgoing_ = std::make_unique<DropOutgoing>(scene.sand, scene.centre);
@@ -239,7 +240,10 @@ ParticleEnergy TimeLoop::energy() const {
     energy.air_internal = air.internal;
     energy.inflow = books_.inflow_energy;
   }
-  energy.escaped = books_.escaped_energy;
+  const BoundaryTotals& out = boundaries_.totals();
+  energy.escaped_gas = out.gas_energy;
+  energy.escaped_sand = out.sand_energy + (pairs_ ? pairs_->books().escaped_elastic : 0.0);
+  if (scene_.has_air) energy.escaped_air = books_.escaped_energy - out.gas_energy - out.sand_energy;
   energy.work_to_structure = scene_.sheet.total_work();
   return energy;
 }

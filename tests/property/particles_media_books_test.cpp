@@ -84,6 +84,14 @@ TEST_P(MediaTogether, KeepMomentumAndEnergy) {
   }
   EXPECT_LT(ledger.energy_error(), grains ? 0.01 : 1e-11);
   EXPECT_NE(scene.sheet.total_impulse().z, 0.0) << "the plate must have been hit";
+  const ParticleEnergy books = loop.energy();
+  if (!scene.has_air) {
+    EXPECT_EQ(books.escaped_gas > 0.0, loop.boundary_totals().gas > 0);
+  }
+  EXPECT_EQ(books.escaped_air > 0.0, scene.has_air) << "also into still air";
+  EXPECT_EQ(books.escaped_sand > 0.0, loop.boundary_totals().sand > 0);
+  EXPECT_EQ(books.friction_loss > 0.0, spec.effect("friction"));
+  EXPECT_EQ(books.damping_loss > 0.0, spec.effect("damping"));
   // Air that flies into still air is taken out too.
   if (!scene.has_air) {
     EXPECT_EQ(loop.boundary_totals().gas == 0 && loop.boundary_totals().sand == 0, closed);

@@ -20,7 +20,7 @@ struct AirBox {
 inline std::unique_ptr<Air> air_in(const AirBox& box) {
   AmbientGas ambient{101300.0, 1.3, 1.3 * box.cell * box.cell * box.cell / box.particles_a_cell, 2.0};
   AirCellsOptions cells{box.lower, box.upper, box.cell, box.cover, box.cover, false, false};
-  auto air = std::make_unique<Air>(Air{ambient, 0.5 * box.cell, 0.0, 3.4, AirCells(cells), {}, 0, {}, 0.0, 0.0});
+  auto air = std::make_unique<Air>(Air{ambient, 0.5 * box.cell, 0.0, 3.4, AirCells(cells), {}, 0, {}, 0.0, {}, 0.0});
   air->cross_section = cross_section(ambient, air->mean_free_path);
   air->particles.mass = ambient.particle_mass, air->particles.gamma = 1.4;
   air->particles.radius = 0.05 * box.cell;

@@ -3,13 +3,12 @@
 #include <numbers>
 
 #include "coupling/case/effects/effect.hpp"
+#include "coupling/case/soil_body.hpp"
 
 namespace standoff::effects {
 
 double soil_mass(const SoilSpec& soil) {
-  if (soil.kind == SoilKind::none) return 0.0;
-  const double shell = std::pow(soil.outer_radius, 3) - std::pow(soil.inner_radius, 3);
-  return soil.bulk_density * 4.0 / 3.0 * std::numbers::pi * shell;
+  return soil.kind == SoilKind::none ? 0.0 : soil.bulk_density * SoilBody(soil, {}).volume();
 }
 
 Estimate estimate(const CaseSpec& spec) {

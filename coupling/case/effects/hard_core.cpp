@@ -15,7 +15,7 @@ namespace {
 ///   sec. 3.3]
 /// The fastest grains are those that the front of the products throws: v = 2 m_gas/(m_gas + m_grain) v_front, elastic,
 /// with the speed of an expansion into vacuum, v_front = 2 (gamma E0/((gamma - 1) rho0))^(1/2) [Zel'dovich, Raizer
-/// 1966, ch. I, sec. 11].
+/// 1966, ch. I].
 EffectFinding find(const CaseSpec& spec) {
   const SoilSpec& s = spec.soil;
   const ChargeSpec& c = spec.charge;

@@ -1,4 +1,4 @@
-#include "particle_solver/packing/sand_shell.hpp"
+#include "particle_solver/packing/sand_body.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,41 +20,42 @@ double cube(double a) {
   return a * a * a;
 }
 
-double shell_volume(const SoilSpec& soil) {
-  return 4.0 / 3.0 * std::numbers::pi * (cube(soil.outer_radius) - cube(soil.inner_radius));
-}
-
-void check(const SoilSpec& soil, const ShellOptions& options) {
-  if (!(soil.outer_radius > soil.inner_radius) || soil.inner_radius < 0.0 || soil.particles < (options.quarter ? 4 : 1))
+void check(const SoilSpec& soil, const SoilBody& shape, const BodyOptions& options) {
+  if (!(shape.volume() > 0.0) || soil.inner_radius < 0.0 || soil.particles < (options.quarter ? 4 : 1))
+    throw Stop(
+        ExitCode::bad_case,
+        "sand: the body needs a size above zero with its cavity inside (a shell: outer_radius > inner_radius >= 0) "
+        "and at least one grain in the simulated part: particles >= 4 with quarter symmetry, >= 1 without");
+  const Vec3& centre = shape.centre();
+  if (options.quarter && (options.centre.x != 0.0 || options.centre.y != 0.0 || centre.x != 0.0 || centre.y != 0.0))
     throw Stop(ExitCode::bad_case,
-               "sand: the shell needs outer_radius > inner_radius >= 0 and at least one grain in the simulated part: "
-               "particles >= 4 with quarter symmetry, >= 1 without");
-  if (options.quarter && (options.centre.x != 0.0 || options.centre.y != 0.0))
-    throw Stop(ExitCode::bad_case,
-               "sand: with quarter symmetry the charge must be centred above the plate (x = y = 0); "
+               "sand: with quarter symmetry charge and sand must be centred above the plate (x = y = 0); "
                "use run.symmetry = \"none\"");
 }
 
-/// A grain of the repeated cell near the shell.
+/// A grain of the repeated cell near the body.
 struct Candidate {
   double outside = 0.0;  // m beyond the nearer surface; negative inside
-  Vec3 place;            // m from the centre of the shell
+  Vec3 place;            // m from the centre of the body
   std::uint32_t cell_grain = 0;
 };
 
-std::vector<Candidate> cut(const SoilSpec& soil, const PackedCell& cell, double size, const ShellOptions& options) {
+/// Grains of the repeated cell in and near `shape`, which lies about the origin.
+std::vector<Candidate> cut(const SoilBody& shape, const PackedCell& cell, double size, const BodyOptions& options) {
   CounterRandom random(options.seed, RandomUse::cell_offset, 0);
   const Vec3 offset{random.uniform(), random.uniform(), random.uniform()};
   const double margin = 4.0 * cell.mean_radius * size;
-  const int reach = static_cast<int>((soil.outer_radius + margin) / size) + 2, from = options.quarter ? -1 : -reach;
+  const auto cells = [&](double half) { return static_cast<int>((half + margin) / size) + 2; };
+  const Vec3& half = shape.half_size();
+  const int nx = cells(half.x), ny = cells(half.y), nz = cells(half.z);
   std::vector<Candidate> candidates;
-  for (int z = -reach; z <= reach; ++z)
-    for (int y = from; y <= reach; ++y)
-      for (int x = from; x <= reach; ++x)
+  for (int z = -nz; z <= nz; ++z)
+    for (int y = options.quarter ? -1 : -ny; y <= ny; ++y)
+      for (int x = options.quarter ? -1 : -nx; x <= nx; ++x)
         for (std::size_t i = 0; i < cell.position.size(); ++i) {
           const Vec3 place = size * (Vec3{double(x), double(y), double(z)} + cell.position[i] - offset);
           if (options.quarter && (place.x < 0.0 || place.y < 0.0)) continue;
-          const double r = norm(place), outside = std::max(soil.inner_radius - r, r - soil.outer_radius);
+          const double outside = shape.beyond(place);
           if (outside < margin) candidates.push_back({outside, place, static_cast<std::uint32_t>(i)});
         }
   return candidates;
@@ -63,7 +64,7 @@ std::vector<Candidate> cut(const SoilSpec& soil, const PackedCell& cell, double 
 /// Keeps the `wanted` deepest; equal depths are told apart by their order.
 void keep_deepest(std::vector<Candidate>& candidates, std::size_t wanted) {
   if (candidates.size() < wanted)
-    throw Stop(ExitCode::bad_case, "sand: too few particles for this shell: a grain is thicker than the shell");
+    throw Stop(ExitCode::bad_case, "sand: too few particles for this body: a grain is thicker than the body");
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.outside < b.outside; });
   candidates.resize(wanted);
@@ -99,33 +100,32 @@ SandState make_state(const std::vector<Candidate>& kept, const PackedCell& cell,
 
 }  // namespace
 
-SandBody fill_shell(const SoilSpec& soil, const ShellOptions& options) {
-  check(soil, options);
+SandBody fill_body(const SoilSpec& soil, const BodyOptions& options) {
+  const SoilBody shape(soil, options.centre);
+  check(soil, shape, options);
   const int copies = options.quarter ? 4 : 1;
   const auto wanted = static_cast<std::size_t>(std::llround(static_cast<double>(soil.particles) / copies));
   const PackedCell& cell = pack_cell({options.cell_count, soil.packing, soil.radius_spread, options.seed});
   SandBody body;
-  body.cell_size = std::cbrt(shell_volume(soil) * options.cell_count / static_cast<double>(soil.particles));
+  body.cell_size = std::cbrt(shape.volume() * options.cell_count / static_cast<double>(soil.particles));
   body.law = grain_law(soil, body.cell_size);
   body.cell_overlap = cell.max_overlap, body.cell_coordination = cell.coordination;
-  std::vector<Candidate> kept = cut(soil, cell, body.cell_size, options);
+  SoilSpec at_origin = soil;
+  at_origin.centre = {};
+  std::vector<Candidate> kept = cut({at_origin, options.centre - shape.centre()}, cell, body.cell_size, options);
   keep_deepest(kept, wanted);
   const double radius = cell.mean_radius * body.cell_size;
   for (Candidate& c : kept)
     if (options.quarter) c.place.x = off_plane(c.place.x, radius), c.place.y = off_plane(c.place.y, radius);
-  body.grains = make_state(kept, cell, body.cell_size, soil.bulk_density * shell_volume(soil) / copies, options.centre);
+  body.grains = make_state(kept, cell, body.cell_size, soil.bulk_density * shape.volume() / copies, shape.centre());
 
   SandPairs pairs({{1.0, 0.0, 0.0}, {options.quarter}, {}, 0.2, options.threads});
-  const double play = 0.35 * radius;
-  const ShellBounds bounds{options.centre, soil.inner_radius - play, soil.outer_radius + play};
+  const BodyBounds bounds{shape, 0.35 * radius};
   const RelaxResult relaxed =
       relax_overlaps(body.grains, pairs, {options.overlap, 0.0, options.most_iterations, bounds});
   body.residual_overlap = relaxed.overlap, body.iterations = relaxed.iterations;
   body.coordination = pairs.books().coordination;
-  for (const Vec3& p : body.grains.position) {
-    const double r = norm(p - options.centre);
-    body.swelling = std::max({body.swelling, r - soil.outer_radius, soil.inner_radius - r});
-  }
+  for (const Vec3& p : body.grains.position) body.swelling = std::max(body.swelling, shape.beyond(p));
   return body;
 }
 

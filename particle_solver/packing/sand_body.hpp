@@ -1,13 +1,13 @@
 #pragma once
-// A body of sand: the unit cell scaled to edge L, repeated in x, y, z and cut to a spherical shell [Borvik 2011,
-// sec. 3.3].
+// A body of sand: the unit cell scaled to edge L, repeated in x, y, z and cut to a shell, sphere, cylinder or box
+// [Borvik 2011, sec. 3.3].
 //
-//   L^3 = (cell count) V / N,  V the shell's volume, N the number of grains of the full shell    mass = bulk density V
+//   L^3 = (cell count) V / N,  V the body's volume, N the number of grains of the full body    mass = bulk density V
 //   / N each
 //
 // The cells start at a random offset. A cut through a random packing would leave a few grains more or less than N; the
-// grains kept are the N nearest to (or deepest in) the shell, which moves the cut by a small part of a grain. So count
-// and mass are exact, and L, k, radius and mass of a grain are those of the cell. Centres lie in the shell; half a
+// grains kept are the N nearest to (or deepest in) the body, which moves the cut by a small part of a grain. So count
+// and mass are exact, and L, k, radius and mass of a grain are those of the cell. Centres lie in the body; half a
 // grain stands out at either surface, so that the mass density is right up to the surface on average.
 //
 // In a quarter model the planes x = 0 and y = 0 are mirrors: no centre may be nearer than its radius. Overlaps (with
@@ -22,7 +22,7 @@
 
 namespace standoff::particles {
 
-struct ShellOptions {
+struct BodyOptions {
   Vec3 centre;           // m
   bool quarter = false;  // keep x >= 0, y >= 0; the centre must lie on both planes
   std::uint64_t seed = 1;
@@ -40,10 +40,10 @@ struct SandBody {
   double cell_coordination = 0.0;
   double residual_overlap = 0.0;  // largest in the body, in mean diameters
   double coordination = 0.0;
-  double swelling = 0.0;  // m by which the farthest centre lies outside of the shell
+  double swelling = 0.0;  // m by which the farthest centre lies outside of the body
   int iterations = 0;
 };
 
-SandBody fill_shell(const SoilSpec& soil, const ShellOptions& options);
+SandBody fill_body(const SoilSpec& soil, const BodyOptions& options);
 
 }  // namespace standoff::particles

@@ -7,7 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "coupling/base/stop.hpp"
-#include "particle_solver/packing/sand_shell.hpp"
+#include "coupling/case/soil_body.hpp"
+#include "particle_solver/packing/sand_body.hpp"
 #include "particle_solver/step/sand_integrate.hpp"
 
 namespace standoff::particles {
@@ -36,7 +37,7 @@ class Shell : public testing::TestWithParam<std::tuple<SoilKind, bool>> {};
 TEST_P(Shell, FilledWithAFewThousandGrains_HasTheMassTheCountAndNoOverlap) {
   const auto [kind, quarter] = GetParam();
   const SoilSpec s = soil(kind, 8000);
-  const SandBody body = fill_shell(s, {centre, quarter, 1});
+  const SandBody body = fill_body(s, {centre, quarter, 1});
   const SandState& sand = body.grains;
   const double full = quarter ? 4.0 : 1.0;
   EXPECT_EQ(sand.size(), quarter ? 2000u : 8000u);
@@ -70,7 +71,7 @@ TEST(SandShell, InThreeLayersAndTwoHalves_IsEvenlyDense) {
   // N = 40000 grains, a third of the volume each: a cut through a packing has errors on its surface only: a layer with
   // about 2 A/(d^2) = 2e4 surface grains is uncertain by sqrt(2e4) = 140 of 13333, 1.1 %; four of these.
   const SoilSpec s = soil(SoilKind::dry, 40000);
-  const SandBody body = fill_shell(s, {centre, false, 4});
+  const SandBody body = fill_body(s, {centre, false, 4});
   int layers[3] = {0, 0, 0}, above = 0;
   for (const Vec3& p : body.grains.position) {
     const double r = norm(p - centre);
@@ -84,15 +85,15 @@ TEST(SandShell, InThreeLayersAndTwoHalves_IsEvenlyDense) {
 
 TEST(SandShell, OtherSeed_GivesAnotherBody) {
   const SoilSpec s = soil(SoilKind::dry, 2000);
-  const SandBody one = fill_shell(s, {centre, false, 1}), two = fill_shell(s, {centre, false, 2});
-  const SandBody again = fill_shell(s, {centre, false, 1});
+  const SandBody one = fill_body(s, {centre, false, 1}), two = fill_body(s, {centre, false, 2});
+  const SandBody again = fill_body(s, {centre, false, 1});
   EXPECT_NE(one.grains.position, two.grains.position);
   EXPECT_EQ(one.grains.position, again.grains.position);
 }
 
 TEST(SandShell, AtRest_StaysAtRest) {
   // What overlap is left (1e-4 d) may push a grain to v = overlap sqrt(k/m); ten contacts in line at most.
-  SandBody body = fill_shell(soil(SoilKind::dry, 4000), {centre, true, 1});
+  SandBody body = fill_body(soil(SoilKind::dry, 4000), {centre, true, 1});
   SandPairs pairs({body.law, {true}, {}, 0.0, 1});
   pairs.forces(body.grains, 0.0);
   for (int n = 0; n < 100; ++n) sand_step(body.grains, pairs, pairs.stable_step());
@@ -100,9 +101,29 @@ TEST(SandShell, AtRest_StaysAtRest) {
   for (const Vec3& v : body.grains.velocity) EXPECT_LT(norm(v), 10.0 * speed);
 }
 
+TEST(SandBody, SphereCylinderAndBoxWithACavity_HaveTheMassTheCountAndLieWhereStated) {
+  for (const SoilShape shape : {SoilShape::sphere, SoilShape::cylinder, SoilShape::box})
+    for (const bool quarter : {true, false}) {
+      SoilSpec s = soil(SoilKind::dry, 8000);
+      s.shape = shape, s.outer_radius = 0.08, s.height = 0.09, s.size = {0.2, 0.1, 0.09}, s.centre = {0, 0, 0.16};
+      const SoilBody where(s, centre);
+      const SandBody body = fill_body(s, {centre, quarter, 1});
+      EXPECT_EQ(body.grains.size(), quarter ? 2000u : 8000u);
+      EXPECT_NEAR((quarter ? 4.0 : 1.0) * mass(body.grains) / (s.bulk_density * where.volume()), 1.0, 1e-11);
+      EXPECT_LE(body.residual_overlap, 1e-4) << "shape " << int(shape);
+      int shifted = 0;
+      for (const Vec3& p : body.grains.position) {
+        EXPECT_LE(where.beyond(p), 0.36 * body.grains.radius);
+        shifted += p.z > 0.16;
+      }
+      // Halves above and below the centre differ by the cavity, 6 % of the volume at most, and by the cut: see above.
+      EXPECT_NEAR(shifted / double(body.grains.size()), 0.5, 0.06);
+    }
+}
+
 TEST(SandShell, NotOnTheMirrorPlanes_IsRefusedWithTheRemedy) {
   try {
-    fill_shell(soil(SoilKind::dry, 4000), {{0.01, 0, 0.15}, true, 1});
+    fill_body(soil(SoilKind::dry, 4000), {{0.01, 0, 0.15}, true, 1});
     FAIL() << "accepted";
   } catch (const Stop& stop) {
     EXPECT_EQ(stop.code(), ExitCode::bad_case);
