@@ -12,7 +12,9 @@ namespace {
 CaseSpec sand_case(long charge, long sand, int elements) {
   CaseSpec spec;
   spec.charge = {true, {"c4", 1601.0, 8.7e9, 1.4, 0.2, 8190.0}, 0.15, 0.0282, {}, charge};
-  spec.soil = {SoilKind::dry, 0.03, 0.0762, 0.6, 2700.0, 1620.0, 0.4e9, 0.3, 0.0, 0.0, sand};
+  spec.soil.kind = SoilKind::dry, spec.soil.inner_radius = 0.03, spec.soil.outer_radius = 0.0762;
+  spec.soil.packing = 0.6, spec.soil.grain_density = 2700.0, spec.soil.bulk_density = 1620.0;
+  spec.soil.stiffness = 0.4e9, spec.soil.friction = 0.3, spec.soil.particles = sand;
   spec.plate.material.density = 8060.0, spec.plate.material.youngs_modulus = 195e9,
   spec.plate.material.poissons_ratio = 0.3;
   spec.plate.size = {0.406, 0.406, 3.4e-3};
