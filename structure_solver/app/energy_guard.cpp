@@ -38,19 +38,21 @@ void guard_energy(const CaseSpec& spec, const StructuralModel& model, const Stru
   const double volume = size.x * size.y * size.z / spec.copies();
   const double strained = 0.5 * spec.plate.material.youngs_modulus * 1e-6 * volume;
   const double balance = books.balance();
-  if (std::abs(balance) <= largest_open_share * std::max(peak_work, strained)) return;
+  const double share = balance < 0.0 ? largest_made_share : largest_lost_share;
+  if (std::abs(balance) <= share * std::max(peak_work, strained)) return;
   const double full = spec.copies();
-  throw Stop(ExitCode::guard,
-             fmt::format(
-                 "structure: the energy books are open: {:.4g} J {} at t = {:.4g} us\n"
-                 "  external work {:.4g} J, kinetic {:.4g} J, elastic {:.4g} J, plastic {:.4g} J (full plate); limit "
-                 "{:.0f} %\n"
-                 "  {}\n"
-                 "  the step is too long for the plate as it is, or a hit yields within one step: use a shorter\n"
-                 "  coupling.window, or more particles or fewer elements so that a hit loads more of the plate at once",
-                 full * std::abs(balance), balance < 0.0 ? "came from nowhere" : "are missing", 1e6 * model.time(),
-                 full * books.external_work, full * books.kinetic, full * books.elastic, full * books.plastic,
-                 100.0 * largest_open_share, fastest_place(model)));
+  throw Stop(
+      ExitCode::guard,
+      fmt::format(
+          "structure: the energy books are open: {:.4g} J {} at t = {:.4g} us\n"
+          "  external work {:.4g} J, kinetic {:.4g} J, elastic {:.4g} J, plastic {:.4g} J (full plate); limit "
+          "{:.0f} %\n"
+          "  {}\n"
+          "  the step is too long for the plate as it is, or a hit yields within one step: use more particles or\n"
+          "  fewer elements so that a hit loads more of the plate at once, or another coupling.window, \"auto\" best",
+          full * std::abs(balance), balance < 0.0 ? "came from nowhere" : "are missing", 1e6 * model.time(),
+          full * books.external_work, full * books.kinetic, full * books.elastic, full * books.plastic, 100.0 * share,
+          fastest_place(model)));
 }
 
 bool can_be_shown(const StructureFrame& frame) {
