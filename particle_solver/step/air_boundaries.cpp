@@ -85,7 +85,10 @@ void AirBoundaries::let_in(Air& air, BoundaryBooks& books, double dt, std::uint3
     if (through_plate) continue;
     // Part of the step is flown already, unless the plate might have been in the way.
     const Vec3 end = x + v * since;
-    add(air, end.z > air.particles.radius ? end : x, v, internal, books);
+    const AirCell there = air.cells.state_at(end);
+    if (there == AirCell::asleep || there == AirCell::outside) continue;  // it has flown out again
+    const bool clear = end.z > air.particles.radius || (air.cells.beside_cover(x) && air.cells.beside_cover(end));
+    add(air, clear ? end : x, v, internal, books);
   }
 }
 

@@ -26,6 +26,10 @@ TEST(AmbientAir, ForAHundredThousandSteps_DoesNotDrift) {
     }
   double mean_number = 0.0, mean_kinetic = 0.0;
   for (std::size_t k = 0; k < 10; ++k) mean_number += 0.1 * number[k], mean_kinetic += 0.1 * kinetic[k] / number[k];
+  const double expected = 64.0 * box.particles_a_cell, free_particles = 10.0 * renewals * expected;
+  EXPECT_NEAR(mean_number, expected, 4.0 * std::sqrt(expected / (10.0 * renewals))) << "particles";
+  EXPECT_NEAR(mean_kinetic / (1.5 * air->particles.mass * s * s), 1.0, 4.0 * std::sqrt(2.0 / (3.0 * free_particles)))
+      << "energy of a particle";
   for (std::size_t k = 0; k < 10; ++k) {
     EXPECT_NEAR(number[k], mean_number, 4.0 * std::sqrt(mean_number / renewals)) << "particles, tenth " << k;
     EXPECT_NEAR(kinetic[k] / number[k] / mean_kinetic, 1.0, 4.0 * std::sqrt(2.0 / (3.0 * renewals * mean_number)))
