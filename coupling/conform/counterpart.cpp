@@ -100,6 +100,11 @@ void Counterpart::expect_quiet(double limit) {
   if (end_) throw RuleBroken(fmt::format("it {}, saying {}", describe(*end_), said()));
 }
 
+void Counterpart::call_off() {
+  if (address_.empty() || lost_ || end_ || !router_) return;
+  say(message::Abort{"broker", ExitCode::interrupted, "the rule has been judged", -1});
+}
+
 ProcessEnd Counterpart::wait_end(double limit) {
   const double until = seconds() + limit;
   while (!reap()) {

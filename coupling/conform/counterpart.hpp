@@ -51,6 +51,8 @@ class Counterpart {
   void expect_quiet(double seconds);
   /// Waits for the end of the process, hearing on.
   ProcessEnd wait_end(double seconds);
+  /// Tells a side that the run is over: signalled between windows, it would wait for the broker to save first.
+  void call_off();
 
   void stop_beating() { beating_ = false; }
   void hang_up() { router_.reset(); }

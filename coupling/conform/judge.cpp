@@ -11,6 +11,7 @@ std::string objection(const Rule& rule, Play& play) {
   try {
     rule.play(play);
     play.peer.signal(SIGTERM);
+    play.peer.call_off();
     play.peer.wait_end(10.0);
     const std::string left = play.peer.leftovers();
     return left.empty() ? "" : "it left " + left;
