@@ -13,6 +13,9 @@ namespace {
 constexpr int most_queued = 256;
 constexpr int linger_ms = 1000;
 constexpr int retry_ms = 50;  // between attempts to connect while the broker is not there yet
+// A broker that ends while it greets us breaks one greeting and is gone at the next attempt; one whose key is another
+// than we think breaks them all.
+constexpr int greetings_broken_by_keys = 3;
 
 }  // namespace
 
@@ -23,6 +26,7 @@ struct Dealer::Impl {
   zmq::socket_t socket{*context, zmq::socket_type::dealer};
   SocketWatch watch{*context, socket};
   bool connected, lost = false, refused = false;
+  int broken_greetings = 0;
 };
 
 Dealer::Dealer(const std::string& endpoint, const CurveKeys& keys, bool insecure)
@@ -56,6 +60,8 @@ void Dealer::look() {
   while (const auto event = impl_->watch.next()) {
     if (event->kind == ConnectionEvent::Kind::refused)
       impl_->refused = true;
+    else if (event->kind == ConnectionEvent::Kind::broken)
+      impl_->refused = impl_->refused || ++impl_->broken_greetings >= greetings_broken_by_keys;
     else if (event->kind == ConnectionEvent::Kind::opened)
       impl_->connected = true;
     else if (impl_->connected)

@@ -41,6 +41,7 @@ std::optional<ConnectionEvent> SocketWatch::next() {
   using Kind = ConnectionEvent::Kind;
   const Kind kind = number == ZMQ_EVENT_HANDSHAKE_SUCCEEDED ? Kind::opened
                     : number == ZMQ_EVENT_DISCONNECTED      ? Kind::ended
+                    : (number & handshake_broken) != 0      ? Kind::broken
                                                             : Kind::refused;
   return ConnectionEvent{kind, value};
 }

@@ -13,7 +13,9 @@
 namespace standoff {
 
 struct ConnectionEvent {
-  enum class Kind { opened, ended, refused };  // refused: the other side's keys and ours do not fit
+  /// refused: our keys were looked at and turned down; broken: the greeting failed for want of keys that fit, or
+  /// because the other side ended in the middle of it.
+  enum class Kind { opened, ended, refused, broken };
   Kind kind = Kind::ended;
   int descriptor = -1;
 };

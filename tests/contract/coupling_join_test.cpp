@@ -1,6 +1,10 @@
 // Law: only the participants of this run get in; anyone else is told what is wrong and what to change, and the run goes
 // on undisturbed. No tolerances.
+#include <future>
+
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
 #include "tests/contract/coupling_raw_peer.hpp"
 
@@ -38,6 +42,35 @@ TEST(Join, WrongParticipants_AreRejectedWithAReasonAndTheRunGoesOn) {
   EXPECT_EQ(structure.wait(), 0) << run.errors("structure");
   EXPECT_EQ(broker.wait(), 0) << run.errors("broker");
   EXPECT_EQ(run.events("rejected").size(), refusals.size());
+}
+
+// The listener takes one connection, ends it in the middle of the greeting and is gone.
+TEST(Join, BrokerThatDiesWhileItGreets_IsMissingAndNotAWrongKey) {
+  const int listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in here{};
+  here.sin_family = AF_INET;
+  here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof here;
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&here), size), 0);
+  ASSERT_EQ(listen(listener, 1), 0);
+  ASSERT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&here), &size), 0);
+  CoupledRun run;
+  ParticipantOptions given = run.options(Role::load);
+  given.endpoint = "tcp://127.0.0.1:" + std::to_string(ntohs(here.sin_port));
+  given.join_deadline = 1.0;
+  auto end = std::async(std::launch::async, [given]() -> std::pair<ExitCode, std::string> {
+    try {
+      with_link(given, [](Participant&) {});
+    } catch (const Stop& stop) {
+      return {stop.code(), stop.what()};
+    }
+    return {ExitCode::done, ""};
+  });
+  close(accept(listener, nullptr, nullptr));
+  close(listener);
+  const auto [code, text] = end.get();
+  EXPECT_EQ(code, ExitCode::participant_lost) << text;
+  EXPECT_TRUE(text.starts_with("no broker answered")) << text;
 }
 
 TEST(Join, AnotherWireVersion_IsRejectedWithBothVersions) {

@@ -93,6 +93,7 @@ TEST_P(Transport, GuardOfOneSide_IsTheFirstCauseOfAll) {
 TEST_P(Transport, OneEndsWithoutAWord_TheBrokerSeesIt) {
   auto broker = start_broker();
   auto structure = start(options(Role::structure), [](Participant& link) { idle_structure(link); });
+  ASSERT_TRUE(eventually(10.0, [&] { return !first("joined").empty(); }));
   {
     RawPeer peer(options(Role::load));
     peer.hello();
@@ -127,6 +128,7 @@ TEST_P(Transport, AnotherRunToken_IsTurnedAway) {
 TEST_P(Transport, FieldTruncated_EndsTheRunAndNamesTheField) {
   auto broker = start_broker();
   auto load = start(options(Role::load), [](Participant& link) { idle_load(link); });
+  ASSERT_TRUE(eventually(10.0, [&] { return !first("joined").empty(); }));
   RawPeer peer(options(Role::structure));
   peer.hello();
   peer.hear_a<message::Welcome>();
@@ -134,7 +136,8 @@ TEST_P(Transport, FieldTruncated_EndsTheRunAndNamesTheField) {
   peer.say(message::Surface{8, 3, surface_digest(mesh)}, &mesh, [](Frames& frames) { spoil("truncate", frames); });
   EXPECT_NE(peer.hear_a<message::Abort>().reason.find("field \"node_mass\" announces 64 bytes, its frame holds 40"),
             std::string::npos);
-  EXPECT_EQ(load.get().code, 4);
+  const End end = load.get();
+  EXPECT_EQ(end.code, 4) << end.text;
   EXPECT_EQ(broker.get(), 4);
 }
 
