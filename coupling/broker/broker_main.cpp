@@ -14,6 +14,7 @@
 #include "coupling/broker/broker.hpp"
 #include "coupling/broker/checkpoint_store.hpp"
 #include "coupling/contract/process_watch.hpp"
+#include "coupling/transport/endpoint.hpp"
 
 namespace {
 
@@ -50,7 +51,9 @@ CLI::Validator seconds_check(bool zero_too) {
 void declare(CLI::App& app, CommandLine& line) {
   const CLI::Validator positive = seconds_check(false), not_negative = seconds_check(true);
   Deadlines& limit = line.broker.rules.deadlines;
-  app.add_option("--listen", line.broker.listen, "ipc:///folder/name or tcp://127.0.0.1:port")->required();
+  app.add_option("--listen", line.broker.listen, "ipc:///folder/name or tcp://127.0.0.1:port")
+      ->required()
+      ->check(why_out_of_reach);
   app.add_option("--token", line.broker.rules.token, "run token, hexadecimal; participants must give the same")
       ->required();
   app.add_option("--until", line.broker.rules.until, "end of the windows, s")->required()->check(positive);

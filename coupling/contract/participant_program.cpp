@@ -8,6 +8,7 @@
 #include "coupling/base/stop.hpp"
 #include "coupling/case/case_reader.hpp"
 #include "coupling/contract/participant_main.hpp"
+#include "coupling/transport/endpoint.hpp"
 
 namespace standoff {
 namespace {
@@ -28,7 +29,9 @@ ParticipantCommand participant_command(int argc, char** argv, const ParticipantI
   CLI::App app(identity.does, identity.program);
   app.add_option("--case", command.case_file, "case.toml or case.resolved.toml")->required();
   app.add_option("--level", command.level, "level of an unresolved case");
-  app.add_option("--connect", command.endpoint, "address of the broker, ipc://PATH or tcp://HOST:PORT")->required();
+  app.add_option("--connect", command.endpoint, "address of the broker, ipc://PATH or tcp://HOST:PORT")
+      ->required()
+      ->check(why_out_of_reach);
   app.add_option("--token", command.token, "run token, the broker's");
   app.add_option("--curve-secret", command.curve_secret, "file with our secret key, for a broker on another host")
       ->envname("STANDOFF_CURVE_SECRET");

@@ -69,6 +69,14 @@ Endpoint parse_endpoint(const std::string& text, bool allowed) {
   return endpoint;
 }
 
+std::string why_out_of_reach(const std::string& endpoint) {
+  if (!endpoint.starts_with("inproc://")) return {};
+  return fmt::format(
+      "\"{}\" joins threads of one process, and here each participant is a process: use "
+      "ipc:///folder/name or tcp://127.0.0.1:port",
+      endpoint);
+}
+
 EndpointLock::EndpointLock(const Endpoint& endpoint) : path_(endpoint.path) {
   if (path_.empty()) return;
   const std::string lock = path_ + ".lock";

@@ -16,6 +16,9 @@ struct Endpoint {
 /// address beyond this machine unless `allowed`: there are keys (curve.hpp), or the user said --insecure.
 Endpoint parse_endpoint(const std::string& text, bool allowed);
 
+/// What to tell the user of a program that is alone in its process, where an inproc address leads nowhere; else empty.
+std::string why_out_of_reach(const std::string& endpoint);
+
 /// Keeps an ipc path for one broker: libzmq lets a second bind steal a live path. A file "PATH.lock" is locked for the
 /// life of this object; it and the socket file are removed at its end.
 class EndpointLock {

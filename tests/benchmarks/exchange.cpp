@@ -3,7 +3,8 @@
 // inproc), solvers compute nothing.
 //
 //   one window = GRANT (motion) -> ADVANCE (force), GRANT (force) -> ADVANCE (motion), serial scheme
-//   raw        = the same four messages of the same sizes: DEALER -> ROUTER -> DEALER, forwarded by move
+//   raw        = the same four messages of the same sizes: DEALER -> ROUTER -> DEALER, forwarded by move; a side copies
+//                its arrays into frames and the frames it gets into arrays, as whoever computes with them must
 //
 // Both are measured in turns, so that what else the machine does meets both; the ratio is the median over the turns.
 //
@@ -186,10 +187,14 @@ void send_raw(zmq::socket_t& socket, const std::vector<char>& data, int frames) 
     socket.send(zmq::message_t(data.data(), data.size()),
                 i + 1 < frames ? zmq::send_flags::sndmore : zmq::send_flags::none);
 }
-void receive_raw(zmq::socket_t& socket) {
+void receive_raw(zmq::socket_t& socket, std::vector<char>& into) {
   zmq::message_t frame;
+  char* at = into.data();
   do {
     if (!socket.recv(frame)) return;
+    if (frame.size() == 0 || at + frame.size() > into.data() + into.size()) continue;
+    std::memcpy(at, frame.data(), frame.size());
+    at += frame.size();
   } while (frame.more());
 }
 
@@ -207,15 +212,16 @@ void run_raw_side(const Place& place, const char* name, int frames, int times_to
   zmq::socket_t socket = raw_socket(place, *context, zmq::socket_type::dealer, name);
   socket.connect(place.listen);
   const std::vector<char> data(place.nodes * sizeof(Vec3), 1);
+  std::vector<char> taken(2 * data.size() + 150);
   std::vector<double> times;
   socket.send(zmq::str_buffer("hello"), zmq::send_flags::none);
-  receive_raw(socket);
+  receive_raw(socket, taken);
   for (long k = 0; k < place.windows; ++k) {
     const auto begin = Clock::now();
     if (first)
-      send_raw(socket, data, frames), receive_raw(socket);
+      send_raw(socket, data, frames), receive_raw(socket, taken);
     else
-      receive_raw(socket), send_raw(socket, data, frames);
+      receive_raw(socket, taken), send_raw(socket, data, frames);
     times.push_back(seconds_since(begin));
   }
   if (first) write_times(times_to, times);
@@ -227,7 +233,8 @@ void run_raw_router(const Place& place) {
   if (place.broker.on()) gate.emplace(*context, place.broker.allowed);
   zmq::socket_t socket = raw_socket(place, *context, zmq::socket_type::router, "");
   socket.bind(place.listen);
-  for (int hello = 0; hello < 2; ++hello) receive_raw(socket);
+  std::vector<char> greeting(64);
+  for (int hello = 0; hello < 2; ++hello) receive_raw(socket, greeting);
   const auto address = [](bool load) { return load ? zmq::const_buffer("load", 4) : zmq::const_buffer("plate", 5); };
   for (const bool load : {true, false}) {
     socket.send(address(load), zmq::send_flags::sndmore);

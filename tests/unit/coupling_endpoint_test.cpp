@@ -42,6 +42,11 @@ TEST(Endpoint, ImpossibleAddresses_AreRefused) {
     EXPECT_NE(refusal(text).find("expected ipc://"), std::string::npos) << text;
 }
 
+TEST(Endpoint, InprocOfAProgram_IsOutOfReach) {
+  EXPECT_NE(why_out_of_reach("inproc://x").find("use ipc:///folder/name"), std::string::npos);
+  for (const char* text : {"ipc:///tmp/x/broker", "tcp://127.0.0.1:5555"}) EXPECT_EQ(why_out_of_reach(text), "");
+}
+
 TEST(EndpointLock, HeldByOneBroker_RefusesASecondAndLeavesNothing) {
   char folder[] = "/tmp/standoff-test-XXXXXX";
   const std::string path = std::string(mkdtemp(folder)) + "/broker";
