@@ -121,33 +121,35 @@ void GrainCells::sort(std::span<const Vec3> points) {
       static_cast<std::size_t>(grid_.x) * static_cast<std::size_t>(grid_.y) * static_cast<std::size_t>(grid_.z);
   brick_at_.assign(slots, -1);
   bricks_.clear();
-  point_slot_.resize(count), point_code_.resize(count), order_.resize(count);
+  order_.resize(count);
+  std::vector<std::uint32_t> point_slot(count);
+  std::vector<std::uint8_t> point_code(count);
   for (std::size_t i = 0; i < count; ++i) {
     const CellIndex c = cell_at(points[i]);
     const CellIndex b = {c.x >> 2, c.y >> 2, c.z >> 2};
-    point_code_[i] = static_cast<std::uint8_t>(code_of(c.x, c.y, c.z));
-    point_slot_[i] = static_cast<std::uint32_t>(slot(b));
-    if (brick_at_[point_slot_[i]] < 0) {
-      brick_at_[point_slot_[i]] = 0;
+    point_code[i] = static_cast<std::uint8_t>(code_of(c.x, c.y, c.z));
+    point_slot[i] = static_cast<std::uint32_t>(slot(b));
+    if (brick_at_[point_slot[i]] < 0) {
+      brick_at_[point_slot[i]] = 0;
       bricks_.push_back({b, morton(b)});
     }
   }
   std::sort(bricks_.begin(), bricks_.end(), [](const Brick& a, const Brick& b) { return a.morton < b.morton; });
   for (std::size_t b = 0; b < bricks_.size(); ++b) brick_at_[slot(bricks_[b].at)] = static_cast<std::int32_t>(b);
 
-  // Counting sort by (brick, code); stable, so points of one cell keep the order they came in.
+  // Counting sort by (brick, code); first_ counts, becomes the ends of the cells, and walking backwards turns ends into
+  // starts: stable, so points of one cell keep the order they came in.
   first_.assign(bricks_.size() * 64 + 1, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    point_slot_[i] = static_cast<std::uint32_t>(brick_at_[point_slot_[i]]) * 64 + point_code_[i];
-    ++first_[point_slot_[i] + 1];
+    point_slot[i] = static_cast<std::uint32_t>(brick_at_[point_slot[i]]) * 64 + point_code[i];
+    ++first_[point_slot[i]];
   }
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  for (std::size_t i = count; i-- > 0;) order_[--first_[point_slot[i]]] = static_cast<std::uint32_t>(i);
   occupied_.assign(bricks_.size(), 0);
   for (std::size_t b = 0; b < bricks_.size(); ++b)
     for (unsigned code = 0; code < 64; ++code)
       if (first(b, code) != first(b, code + 1)) occupied_[b] |= 1ull << code;
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < count; ++i) order_[next[point_slot_[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 int GrainCells::find_brick(CellIndex b) const {

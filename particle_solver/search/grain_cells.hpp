@@ -75,8 +75,7 @@ class GrainCells {
   std::vector<std::int32_t> brick_at_;
   std::vector<Brick> bricks_;
   std::vector<std::uint64_t> occupied_;
-  std::vector<std::uint32_t> first_, order_, point_slot_;
-  std::vector<std::uint8_t> point_code_;
+  std::vector<std::uint32_t> first_, order_;
 };
 
 /// Which cells of which brick (a place in GrainCells::bricks_around) are among the 27 around a cell.

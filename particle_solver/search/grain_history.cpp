@@ -10,18 +10,14 @@ namespace {
 /// Calls visit(i, j, spring) for every stretched spring of a block, each contact once, as i against j with i < j.
 template <class Visit>
 void for_each_spring(const GrainBlock& block, Visit&& visit) {
-  for (const PairList* list : {&block.inner, &block.rim})
-    for (const GrainRecord& record : list->springs) {
-      if (record.w < 0.0) break;
-      const GrainPair pair = list->pairs[static_cast<std::size_t>(record.w)];
-      const Vec3 spring{record.x, record.y, record.z};
-      if (pair.i < pair.j && squared_norm(spring) > 0.0) visit(pair.i, pair.j, spring);
-    }
+  block.for_each_spring([&](GrainPair pair, const Vec3& spring) {
+    if (pair.i < pair.j && squared_norm(spring) > 0.0) visit(pair.i, pair.j, spring);
+  });
 }
 
 }  // namespace
 
-void GrainHistory::collect(const std::vector<GrainBlock>& blocks, std::size_t count, int threads) {
+void GrainHistory::collect(std::vector<GrainBlock>& blocks, std::size_t count, int threads) {
   // Each block writes the counts and entries of its own grains only.
   const auto blocks_count = static_cast<int>(blocks.size());
   start_.assign(count + 1, 0);
@@ -33,10 +29,13 @@ void GrainHistory::collect(const std::vector<GrainBlock>& blocks, std::size_t co
   entries_.resize(start_.back());
   std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (int b = 0; b < blocks_count; ++b)
-    for_each_spring(blocks[static_cast<std::size_t>(b)], [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
+  for (int b = 0; b < blocks_count; ++b) {
+    GrainBlock& block = blocks[static_cast<std::size_t>(b)];
+    for_each_spring(block, [&](std::uint32_t i, std::uint32_t j, const Vec3& spring) {
       entries_[next[i]++] = {j, false, spring};
     });
+    block.inner = {}, block.rim = {};
+  }
 }
 
 void GrainHistory::collect(std::span<const GrainSpring> springs, std::span<const std::uint32_t> ids) {
@@ -57,10 +56,12 @@ void GrainHistory::collect(std::span<const GrainSpring> springs, std::span<const
   for (std::size_t e = 0; e < keys.size(); ++e) entries_[next[keys[e]]++] = found[e];
 }
 
-void GrainHistory::apply(PairList& list, std::span<const std::uint32_t> old_index, bool mark) {
-  list.springs.clear();
+template <class Pair>
+void GrainHistory::apply(PairList<Pair>& list, std::uint32_t begin, std::span<const std::uint32_t> old_index,
+                         bool mark) {
+  std::vector<double> found;
   for (std::size_t p = 0; p < list.count; ++p) {
-    const GrainPair pair = list.pairs[p];
+    const GrainPair pair = whole_pair(list.pairs[p], begin);
     const std::uint32_t a = old_index[pair.i], b = old_index[pair.j];
     if (a == nobody || b == nobody) continue;
     const std::uint32_t low = std::min(a, b), high = std::max(a, b);
@@ -68,22 +69,24 @@ void GrainHistory::apply(PairList& list, std::span<const std::uint32_t> old_inde
       Entry& entry = entries_[e];
       if (entry.other != high) continue;
       const Vec3 spring = a < b ? entry.spring : -entry.spring;
-      list.springs.push_back({spring.x, spring.y, spring.z, static_cast<double>(p)});
+      found.insert(found.end(), {spring.x, spring.y, spring.z});
       list.stretched[p / 4] = static_cast<std::uint8_t>(list.stretched[p / 4] | 1u << p % 4);
       // A rim pair is listed from both sides; one of them marks, so that threads do not write the same flag.
       if (mark || pair.i < pair.j) entry.found = true;
       break;
     }
   }
-  list.springs.push_back(no_spring);
+  found.push_back(0.0);
+  list.springs.assign(found.begin(), found.end());
 }
 
 void GrainHistory::apply(std::vector<GrainBlock>& blocks, std::span<const std::uint32_t> old_index, int threads) {
   const auto count = static_cast<int>(blocks.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (int b = 0; b < count; ++b) {
-    apply(blocks[static_cast<std::size_t>(b)].inner, old_index, true);
-    apply(blocks[static_cast<std::size_t>(b)].rim, old_index, false);
+    GrainBlock& block = blocks[static_cast<std::size_t>(b)];
+    apply(block.inner, block.begin, old_index, true);
+    apply(block.rim, block.begin, old_index, false);
   }
 }
 
@@ -91,7 +94,7 @@ double GrainHistory::finish() {
   double lost = 0.0;
   for (const Entry& entry : entries_)
     if (!entry.found) lost += squared_norm(entry.spring);
-  start_.clear(), entries_.clear();
+  start_ = {}, entries_ = {};
   return lost;
 }
 

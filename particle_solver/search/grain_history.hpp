@@ -21,8 +21,8 @@ struct GrainSpring {
 
 class GrainHistory {
  public:
-  /// Takes the stretched springs out of the lists of `count` grains.
-  void collect(const std::vector<GrainBlock>& blocks, std::size_t count, int threads);
+  /// Takes the stretched springs out of the lists of `count` grains; the lists forget them.
+  void collect(std::vector<GrainBlock>& blocks, std::size_t count, int threads);
   /// Takes springs from a list by id, for a restart; `ids` are in sorted order.
   void collect(std::span<const GrainSpring> springs, std::span<const std::uint32_t> ids);
   bool empty() const { return entries_.empty(); }
@@ -39,7 +39,8 @@ class GrainHistory {
     bool found = false;
     Vec3 spring;
   };
-  void apply(PairList& list, std::span<const std::uint32_t> old_index, bool mark);
+  template <class Pair>
+  void apply(PairList<Pair>& list, std::uint32_t begin, std::span<const std::uint32_t> old_index, bool mark);
   std::vector<std::uint32_t> start_;  // entries of old grain i: [start_[i], start_[i + 1])
   std::vector<Entry> entries_;
 };

@@ -58,7 +58,7 @@ class Candidates {
   /// Lists the pairs of grain i with those from place `first` on that are near.
   template <bool Radii, bool Periodic>
   void list(const GrainRecord& self, std::uint32_t i, std::size_t first, const PairListOptions& options,
-            PairList& list) {
+            std::vector<GrainPair>& pairs) {
     const Lanes x = all_lanes(self.x), y = all_lanes(self.y), z = all_lanes(self.z);
     std::size_t found = 0;
     for (std::size_t k = first; k < count_; k += 4) {
@@ -75,7 +75,7 @@ class Candidates {
       if (k + 4 > count_) bits &= (1u << (count_ - k)) - 1u;  // the filling
       found += append_chosen(bits, &index_[k], &found_[found]);
     }
-    for (std::size_t k = 0; k < found; ++k) list.pairs.push_back({i, found_[k]});
+    for (std::size_t k = 0; k < found; ++k) pairs.push_back({i, found_[k]});
   }
 
  private:
@@ -111,7 +111,13 @@ class Lister {
       : cells_(cells), grains_(grains), options_(options) {}
 
   void run(GrainBlock& block) {
-    if (cells_.too_small()) return run_all(block);
+    near_.clear(), far_.clear();
+    cells_.too_small() ? run_all(block) : run_cells(block);
+    pack(block);
+  }
+
+ private:
+  void run_cells(const GrainBlock& block) {
     for (std::size_t b = block.first_brick; b < block.last_brick; ++b) {
       if (!Periodic) bricks_ = cells_.bricks_around(b);
       for (std::uint64_t left = cells_.occupied(b); left != 0; left &= left - 1) {
@@ -120,12 +126,10 @@ class Lister {
         around_.start(grains_, self);
         Periodic ? look_around_wrapped(block, b, code, self) : look_around(block, code, self);
         around_.close();
-        list(block, self);
+        list(self);
       }
     }
   }
-
- private:
   Range cell(std::size_t brick, unsigned code) const {
     return {cells_.first(brick, code), cells_.first(brick, code + 1)};
   }
@@ -151,36 +155,54 @@ class Lister {
         around_.add(grains_, block, self, cell(static_cast<std::size_t>(other), other_code));
     }
   }
-  void list(GrainBlock& block, Range self) {
+  void list(Range self) {
     for (std::uint32_t i = self.begin; i < self.end; ++i) {
-      around_.inner.template list<Radii, Periodic>(grains_[i], i, i - self.begin + 1, options_, block.inner);
-      around_.rim.template list<Radii, Periodic>(grains_[i], i, 0, options_, block.rim);
+      around_.inner.template list<Radii, Periodic>(grains_[i], i, i - self.begin + 1, options_, near_);
+      around_.rim.template list<Radii, Periodic>(grains_[i], i, 0, options_, far_);
     }
   }
+  /// Moves what was found to the block, in lists of just the length.
+  void pack(GrainBlock& block) {
+    std::size_t kept = 0;
+    for (const GrainPair pair : near_)
+      if (std::max(pair.i, pair.j) - block.begin <= options_.longest_offset)
+        near_[kept++] = pair;
+      else
+        far_.push_back(pair), far_.push_back({pair.j, pair.i});
+    near_.resize(kept);
+    fill(block.inner, near_, [&](GrainPair pair) {
+      return NearPair{static_cast<std::uint16_t>(pair.i - block.begin),
+                      static_cast<std::uint16_t>(pair.j - block.begin)};
+    });
+    fill(block.rim, far_, [](GrainPair pair) { return pair; });
+  }
+  template <class Pair, class Shorten>
+  void fill(PairList<Pair>& list, const std::vector<GrainPair>& pairs, Shorten&& shorten) const {
+    list.count = pairs.size();
+    list.pairs = {};
+    list.pairs.resize(pairs.size() / 4 * 4 + 4);
+    std::transform(pairs.begin(), pairs.end(), list.pairs.begin(), shorten);
+    if (!options_.springs) return;
+    list.springs.assign(1, 0.0);
+    list.stretched = {};
+    list.stretched.resize(list.groups());
+  }
   /// A periodic box of fewer than three cells: cells would meet themselves, so compare all with all.
-  void run_all(GrainBlock& block) {
+  void run_all(const GrainBlock& block) {
     around_.start(grains_, {block.begin, block.end});
     around_.rim.add(grains_, {0, block.begin});
     around_.rim.add(grains_, {block.end, static_cast<std::uint32_t>(grains_.size() - 1)});
     around_.close();
-    list(block, {block.begin, block.end});
+    list({block.begin, block.end});
   }
 
   const GrainCells& cells_;
   std::span<const GrainRecord> grains_;
   const PairListOptions& options_;
   Around around_;
+  std::vector<GrainPair> near_, far_;
   std::array<std::int32_t, 27> bricks_{};
 };
-
-void fill_up(PairList& list, std::uint32_t begin, std::uint32_t far_away, bool springs) {
-  list.count = list.pairs.size();
-  do list.pairs.push_back({begin, far_away});
-  while (list.pairs.size() % 4 != 0);
-  if (!springs) return;
-  list.springs.assign(1, no_spring);
-  list.stretched.assign(list.groups(), 0);
-}
 
 template <bool Radii, bool Periodic>
 void list_blocks(const GrainCells& cells, std::span<const GrainRecord> grains, const PairListOptions& options,
@@ -190,14 +212,7 @@ void list_blocks(const GrainCells& cells, std::span<const GrainRecord> grains, c
   {
     Lister<Radii, Periodic> lister(cells, grains, options);
 #pragma omp for schedule(dynamic, 1)
-    for (int b = 0; b < count; ++b) {
-      GrainBlock& block = blocks[static_cast<std::size_t>(b)];
-      block.inner.pairs.clear(), block.rim.pairs.clear();
-      lister.run(block);
-      const auto far_away = static_cast<std::uint32_t>(grains.size() - 1);
-      fill_up(block.inner, block.begin, far_away, options.springs);
-      fill_up(block.rim, block.begin, far_away, options.springs);
-    }
+    for (int b = 0; b < count; ++b) lister.run(blocks[static_cast<std::size_t>(b)]);
   }
 }
 

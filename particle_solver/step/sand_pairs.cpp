@@ -41,11 +41,12 @@ struct SandPairs::Impl {
 
   bool same_grains(const SandState& sand) const;
   void copy_in(const SandState& sand);
-  void moves_of_changed_set(const SandState& sand);
+  void moves_of_changed_set(SandState& sand);
+  void hand_moves_over(SandState& sand) const;
   void book_removed(const std::vector<std::uint32_t>& place);
   void measure(const SandState& sand);
   void adapt_skin();
-  void make_lists(const SandState& sand, std::span<const Vec3> list_position);
+  void make_lists(const SandState& sand, std::span<const Vec3> list_position, std::span<const Vec3> moved);
   PassInput pass_input(double dt) const;
   void run_blocks(SandState& sand, double dt);
   void deep_in_block(const GrainBlock& block, double share, std::vector<DeepContact>& found) const;
@@ -57,11 +58,11 @@ struct SandPairs::Impl {
   GrainDrift drift;
   GrainHistory history;
   std::vector<GrainBlock> blocks;
-  std::vector<std::uint32_t> id, old_index;           // sorted order
-  std::vector<GrainRecord> grains, moves, old_moves;  // sorted order
-  std::vector<Vec3> list_position;                    // sorted order, where the list was made
-  std::vector<PassScratch> scratch;                   // one a thread
-  std::vector<double> block_overlap;                  // m, largest in each block at the last call
+  std::vector<std::uint32_t> id;           // sorted order
+  std::vector<GrainRecord> grains, moves;  // sorted order
+  std::vector<Vec3> list_position;         // sorted order, where the list was made
+  std::vector<PassScratch> scratch;        // one a thread
+  std::vector<double> block_overlap;       // m, largest in each block at the last call
   bool radii = false, ready = false;
   double mean_radius = 0.0, largest_radius = 0.0, smallest_radius = 0.0, lightest = 0.0, skin = 0.0;
   long calls_since_list = 0;
@@ -107,15 +108,16 @@ void SandPairs::Impl::copy_in(const SandState& sand) {
   }
 }
 
-/// The same for a set of grains that was sorted anew, thinned or added to: found by id.
-void SandPairs::Impl::moves_of_changed_set(const SandState& sand) {
+/// Displacements of a set of grains that was sorted anew, thinned or added to: found by id. They go to SandState::force
+/// as in hand_moves_over.
+void SandPairs::Impl::moves_of_changed_set(SandState& sand) {
   std::vector<std::uint32_t> place(largest_id(sand.id, id) + 1, GrainHistory::nobody);
   for (std::size_t s = 0; s < sand.size(); ++s) place[sand.id[s]] = static_cast<std::uint32_t>(s);
   if (ready) book_removed(place);
+  std::fill(sand.force.begin(), sand.force.end(), Vec3{});
   for (std::size_t i = 0; i < id.size(); ++i) {
-    if (place[id[i]] == GrainHistory::nobody) continue;
-    const Vec3 move = sand.position[place[id[i]]] - Vec3{grains[i].x, grains[i].y, grains[i].z};
-    moves[i].x = move.x, moves[i].y = move.y, moves[i].z = move.z;
+    const std::uint32_t s = place[id[i]];
+    if (s != GrainHistory::nobody) sand.force[s] = sand.position[s] - Vec3{grains[i].x, grains[i].y, grains[i].z};
   }
 }
 
@@ -129,14 +131,12 @@ void SandPairs::Impl::book_removed(const std::vector<std::uint32_t>& place) {
     return overlap > 0.0 ? 0.5 * options.law.stiffness * overlap * overlap : 0.0;
   };
   for (const GrainBlock& block : blocks) {
-    for (const PairList* list : {&block.inner, &block.rim})
-      for (std::size_t p = 0; p < list->count; ++p) {
-        const auto [i, j] = list->pairs[p];
-        if (i > j || !(gone(i) || gone(j))) continue;  // a rim pair is listed from both sides
-        const GrainRecord &a = grains[i], &b = grains[j];
-        const Vec3 d{a.x - b.x, a.y - b.y, a.z - b.z};
-        books.escaped_elastic += stored(a.w + b.w - norm(options.periodic_box ? shortest(d, box) : d));
-      }
+    block.for_each_pair([&](GrainPair pair) {
+      if (pair.i > pair.j || !(gone(pair.i) || gone(pair.j))) return;  // a rim pair is listed from both sides
+      const GrainRecord &a = grains[pair.i], &b = grains[pair.j];
+      const Vec3 d{a.x - b.x, a.y - b.y, a.z - b.z};
+      books.escaped_elastic += stored(a.w + b.w - norm(options.periodic_box ? shortest(d, box) : d));
+    });
     for (std::uint32_t i = block.begin; options.mirrors.on && i < block.end; ++i) {
       if (!gone(i)) continue;  // half of a spring to the own image is the grain's
       books.escaped_elastic += 0.5 * stored(2.0 * (grains[i].w - grains[i].x));
@@ -174,8 +174,16 @@ void SandPairs::Impl::adapt_skin() {
     skin = std::max(skin / 1.15, thinnest_skin * diameter);
 }
 
-/// Sorts the grains and lists candidate pairs for where they are at `at` (in the order of SandState).
-void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at) {
+/// Displacements since the last call into SandState::force, which is about to be set anew: lists take them from there.
+void SandPairs::Impl::hand_moves_over(SandState& sand) const {
+  const std::uint32_t* order = cells.order().data();
+#pragma omp parallel for schedule(static) num_threads(options.threads)
+  for (std::size_t i = 0; i < id.size(); ++i) sand.force[order[i]] = {moves[i].x, moves[i].y, moves[i].z};
+}
+
+/// Sorts the grains and lists candidate pairs for where they are at `at`; `moved` are displacements since the last call
+/// (both in the order of SandState).
+void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at, std::span<const Vec3> moved) {
   const std::size_t count = sand.size(), old_count = id.size();
   const bool springs = options.law.friction > 0.0;
   std::vector<std::uint32_t> old_place(largest_id(sand.id, id) + 1, GrainHistory::nobody);
@@ -185,23 +193,22 @@ void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at
   const Vec3* periodic = options.periodic_box ? &box : nullptr;
   const double contact = 2.0 * largest_radius, cutoff = contact + skin;
   cells.build(at, cutoff, periodic);
-  moves.swap(old_moves);
   grains.assign(count + 1, far_away), moves.assign(count + 1, {});
-  id.resize(count), old_index.resize(count), list_position.resize(count);
+  id.resize(count), list_position.resize(count);
+  std::vector<std::uint32_t> old_index(springs ? count : 0);
 #pragma omp parallel for schedule(static) num_threads(options.threads)
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t s = cells.order()[i];
-    id[i] = sand.id[s], old_index[i] = old_place[id[i]], list_position[i] = at[s];
+    id[i] = sand.id[s], list_position[i] = at[s];
+    if (springs) old_index[i] = old_place[id[i]];
     grains[i] = {at[s].x, at[s].y, at[s].z, sand.radius_of(s)};
-    if (old_index[i] != GrainHistory::nobody) moves[i] = old_moves[old_index[i]];
-    moves[i].w = 1.0 / sand.mass_of(s);
+    moves[i] = {moved[s].x, moved[s].y, moved[s].z, 1.0 / sand.mass_of(s)};
   }
   list_grain_pairs(cells, grains, {cutoff, skin, radii, springs, periodic, options.threads}, blocks);
   if (springs && !history.empty()) {
     history.apply(blocks, old_index, options.threads);
     books.friction_loss += 0.5 * options.law.stiffness * history.finish();
   }
-  old_moves = {}, old_index = {};  // 36 bytes a grain that are not needed until the next list
   drift.restart(cells, contact, skin);
   list_box = box, calls_since_list = 0, ready = true;
   ++books.list_builds;
@@ -211,6 +218,7 @@ PassInput SandPairs::Impl::pass_input(double dt) const {
   PassInput in;
   in.law = options.law;
   in.grains = grains.data(), in.moves = moves.data();
+  in.far_away = static_cast<std::uint32_t>(grains.size() - 1);
   in.reach = 2.0 * mean_radius;
   in.dt = dt;
   if (in.law.damping > 0.0) in.dashpot_per_step = dashpot_over_step(in.law, 2.0 / lightest, dt);
@@ -250,15 +258,18 @@ void SandPairs::Impl::run_blocks(SandState& sand, double dt) {
 /// A rim pair is listed by two blocks: the one that holds the smaller index reports it.
 void SandPairs::Impl::deep_in_block(const GrainBlock& block, double share, std::vector<DeepContact>& found) const {
   const auto& order = cells.order();
-  for (const PairList* list : {&block.inner, &block.rim})
-    for (std::size_t p = 0; p < list->count; ++p) {
-      const auto [i, j] = list->pairs[p];
-      if (i > j) continue;
-      const GrainRecord &a = grains[i], &b = grains[j];
-      const double core = share * (a.w + b.w);
-      if (squared_norm(Vec3{a.x - b.x, a.y - b.y, a.z - b.z}) < core * core)
-        found.push_back({order[i], order[j], DeepContact::With::grain});
-    }
+  const auto look = [&](GrainPair pair) {
+    if (pair.i > pair.j) return;
+    const GrainRecord &a = grains[pair.i], &b = grains[pair.j];
+    const double core = share * (a.w + b.w);
+    if (squared_norm(Vec3{a.x - b.x, a.y - b.y, a.z - b.z}) < core * core)
+      found.push_back({order[pair.i], order[pair.j], DeepContact::With::grain});
+  };
+  // Where there are springs, a pair that touches has one.
+  if (options.law.friction > 0.0)
+    block.for_each_spring([&](GrainPair pair, const Vec3&) { look(pair); });
+  else
+    block.for_each_pair(look);
   for (std::uint32_t i = block.begin; options.mirrors.on && i < block.end; ++i) {
     const GrainRecord& grain = grains[i];
     if (grain.x < share * grain.w) found.push_back({order[i], order[i], DeepContact::With::image_x});
@@ -293,13 +304,14 @@ void SandPairs::forces(SandState& sand, double dt) {
     my.measure(sand);
     my.moves_of_changed_set(sand);
     if (!my.ready) my.adapt_skin();
-    my.make_lists(sand, sand.position);
+    my.make_lists(sand, sand.position, sand.force);
   } else {
     my.copy_in(sand);
     const Vec3 stretch = my.box - my.list_box;
     if (my.drift.used(my.options.threads, norm(stretch)) > 1.0) {
       my.adapt_skin();
-      my.make_lists(sand, sand.position);
+      my.hand_moves_over(sand);
+      my.make_lists(sand, sand.position, sand.force);
     }
   }
   my.run_blocks(sand, dt);
@@ -356,7 +368,7 @@ void SandPairs::restore(const SandState& sand, const SandPairsMemory& memory) {
   my.measure(sand);
   my.skin = memory.skin;
   my.old_box = my.box;
-  my.make_lists(sand, memory.list_position);
+  my.make_lists(sand, memory.list_position, std::vector<Vec3>(sand.size()));
   my.history.collect(memory.springs, my.id);
   std::vector<std::uint32_t> same(my.id.size());
   for (std::size_t i = 0; i < same.size(); ++i) same[i] = static_cast<std::uint32_t>(i);

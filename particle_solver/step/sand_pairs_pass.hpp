@@ -2,6 +2,7 @@
 // The inner loop of sand_pairs: the law of grain_contact.hpp over the pair lists of one block, four pairs at a time.
 // What a scene does not have (friction, damping, different radii, periodic box) is compiled out.
 #include <array>
+#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct PassInput {
   GrainLaw law;
   const GrainRecord* grains = nullptr;  // x, y, z, radius; sorted, one more far away
   const GrainRecord* moves = nullptr;   // displacement since the last call and 1/mass
+  std::uint32_t far_away = 0;           // the one that is far away
   double reach = 0.0;                   // m, equal grains: the diameter
   double dashpot_per_step = 0.0;        // N/m, equal grains
   double dt = 0.0;                      // s
@@ -40,9 +42,26 @@ struct PassSums {
 /// Memory that a thread keeps from block to block.
 struct PassScratch {
   std::vector<GrainRecord> force;   // N on the block's grains; w counts contacts
-  std::vector<std::uint32_t> hits;  // slots of a list that need the law
-  std::vector<GrainRecord> springs;
+  std::vector<std::uint32_t> hits;  // slots of a list that need the law, with the two bits below
+  std::vector<double> springs;
 };
+
+/// Bits of a hit beside its slot: the pair has a spring from the last call; it touches now.
+inline constexpr std::uint32_t had_spring = 1u << 31, touches_now = 1u << 30, slot_bits = touches_now - 1;
+
+using FourSlots = std::uint32_t __attribute__((vector_size(16)));
+/// The bits of a group, spread to the same bit of each of its four slots.
+inline constexpr auto spread_bits = [] {
+  std::array<std::array<std::uint32_t, 4>, 16> table{};
+  for (unsigned bits = 0; bits < 16; ++bits)
+    for (unsigned lane = 0; lane < 4; ++lane) table[bits][lane] = bits >> lane & 1u;
+  return table;
+}();
+inline FourSlots spread(unsigned bits) {
+  FourSlots four;
+  std::memcpy(&four, spread_bits[bits].data(), sizeof(four));
+  return four;
+}
 
 inline constexpr std::size_t fetch_ahead = 8;  // groups
 
@@ -51,7 +70,8 @@ using FourPairs = std::array<GrainPair, 4>;
 /// Differences between the records of i and j, as components. `Sum`: the fourth component is the sum of the fourth
 /// numbers.
 template <bool Sum>
-inline void pair_difference(const GrainRecord* records, const GrainPair* pairs, Triple<Lanes>& d, Lanes& w) {
+[[gnu::always_inline]] inline void pair_difference(const GrainRecord* records, const GrainPair* pairs, Triple<Lanes>& d,
+                                                   Lanes& w) {
   const auto difference = [&](int lane) {
     const Lanes other = load(records[pairs[lane].j]);
     return load(records[pairs[lane].i]) - (Sum ? flip_fourth(other) : other);
@@ -62,8 +82,8 @@ inline void pair_difference(const GrainRecord* records, const GrainPair* pairs, 
 
 /// Separation, reach and which periodic image is the nearest.
 template <bool Radii, bool Periodic>
-inline void pair_distance(const PassInput& in, const GrainPair* pairs, GrainPairInput<Lanes>& pair,
-                          Triple<Lanes>& image) {
+[[gnu::always_inline]] inline void pair_distance(const PassInput& in, const GrainPair* pairs,
+                                                 GrainPairInput<Lanes>& pair, Triple<Lanes>& image) {
   Triple<Lanes>& d = pair.separation;
   pair_difference<Radii>(in.grains, pairs, d, pair.reach);
   if constexpr (!Radii) pair.reach = all_lanes(in.reach);
@@ -74,10 +94,20 @@ inline void pair_distance(const PassInput& in, const GrainPair* pairs, GrainPair
   }
 }
 
+/// The pairs of four slots; those from `used` on are the filling, which never touches.
+template <class Pair>
+inline FourPairs pairs_of(const PassInput& in, const PairList<Pair>& list, const std::uint32_t* slots,
+                          std::size_t used) {
+  const auto pair = [&](std::size_t lane) { return whole_pair(list.pairs[slots[lane] & slot_bits], 0); };
+  FourPairs four{pair(0), pair(1), pair(2), pair(3)};
+  for (std::size_t lane = used; lane < 4; ++lane) four[lane].j = in.far_away;
+  return four;
+}
+
 /// Slots of pairs that touch or still hold a spring, in order; filled up to a multiple of four with an empty slot. Most
 /// listed pairs do not touch, so the law runs over this selection. Returns their number without the filling.
-template <bool Friction, bool Radii, bool Periodic>
-std::size_t select_hits(const PassInput& in, PairList& list, std::vector<std::uint32_t>& hits) {
+template <bool Friction, bool Radii, bool Periodic, class Pair>
+std::size_t select_hits(const PassInput& in, PairList<Pair>& list, std::vector<std::uint32_t>& hits) {
   if (hits.size() < list.pairs.size() + 4) hits.resize(list.pairs.size() + 4);
   std::size_t found = 0;
   for (std::size_t g = 0; g < list.groups(); ++g) {
@@ -85,18 +115,23 @@ std::size_t select_hits(const PassInput& in, PairList& list, std::vector<std::ui
         list.pairs.size())  // the partners of later pairs are all over the block: ask for them early
       for (std::size_t lane = 0; lane < 4; ++lane)
         __builtin_prefetch(&in.grains[list.pairs[4 * (g + fetch_ahead) + lane].j]);
+    const auto slot = static_cast<std::uint32_t>(4 * g);
+    FourSlots slots{slot, slot + 1, slot + 2, slot + 3};
+    const Pair* four = &list.pairs[4 * g];
+    const FourPairs pairs{whole_pair(four[0], 0), whole_pair(four[1], 0), whole_pair(four[2], 0),
+                          whole_pair(four[3], 0)};
     GrainPairInput<Lanes> pair;
     Triple<Lanes> image;
-    pair_distance<Radii, Periodic>(in, &list.pairs[4 * g], pair, image);
+    pair_distance<Radii, Periodic>(in, pairs.data(), pair, image);
     const auto touching = dot(pair.separation, pair.separation) < pair.reach * pair.reach;
     unsigned bits = lane_bits(touching);
-    if (Periodic && 4 * g + 4 > list.count)  // every image is near: leave out the filling
-      bits &= (1u << (list.count > 4 * g ? list.count - 4 * g : 0)) - 1u;
-    const unsigned touches = bits;
-    if constexpr (Friction) bits |= list.stretched[g], list.stretched[g] = static_cast<std::uint8_t>(touches);
-    const auto slot = static_cast<std::uint32_t>(4 * g);
-    const std::array<std::uint32_t, 4> slots{slot, slot + 1, slot + 2, slot + 3};
-    found += append_chosen(bits, slots.data(), &hits[found]);
+    if (4 * g + 4 > list.count) bits &= (1u << (list.count - 4 * g)) - 1u;  // without the filling
+    if constexpr (Friction) {
+      const unsigned had = list.stretched[g];
+      slots |= spread(had) << 31 | spread(bits) << 30;
+      list.stretched[g] = static_cast<std::uint8_t>(bits), bits |= had;
+    }
+    found += append_chosen(bits, reinterpret_cast<const std::uint32_t*>(&slots), &hits[found]);
   }
   for (std::size_t k = found; k % 4 != 0; ++k) hits[k] = static_cast<std::uint32_t>(list.count);
   return found;
@@ -104,11 +139,11 @@ std::size_t select_hits(const PassInput& in, PairList& list, std::vector<std::ui
 
 /// Adds forces to i and, inside a block, their opposite to j. The fourth number counts contacts for both.
 template <bool Rim>
-inline void scatter(const Triple<Lanes>& force, Lanes touching, const FourPairs& pairs, std::size_t used,
-                    std::uint32_t begin, GrainRecord* block_force) {
+[[gnu::always_inline]] inline void scatter(const Triple<Lanes>& force, Lanes touching, const FourPairs& pairs,
+                                           std::size_t used, std::uint32_t begin, GrainRecord* block_force) {
   Lanes a = force.x, b = force.y, c = force.z, d = touching;
   transpose(a, b, c, d);
-  const auto one = [&](Lanes f, const GrainPair& pair) {
+  const auto one = [&](Lanes f, const GrainPair& pair) __attribute__((always_inline)) {
     GrainRecord& i = block_force[pair.i - begin];
     store(i, load(i) + f);
     if constexpr (!Rim) {
@@ -122,53 +157,55 @@ inline void scatter(const Triple<Lanes>& force, Lanes touching, const FourPairs&
   if (used > 3) one(d, pairs[3]);
 }
 
-/// Reads the springs of a list and writes the new ones, both in the order of slots.
+/// Reads the springs of a list and writes the new ones, both in the order of slots. A spring is read and written with
+/// the number that follows it.
+template <class Pair>
 class SpringStream {
  public:
-  SpringStream(PairList& list, std::vector<GrainRecord>& scratch, std::size_t hits) : list_(list), fresh_(scratch) {
-    if (fresh_.size() < hits + 4) fresh_.resize(hits + 4);
+  SpringStream(PairList<Pair>& list, std::vector<double>& scratch, std::size_t hits) : list_(list), fresh_(scratch) {
+    if (fresh_.size() < 3 * hits + 16) fresh_.resize(3 * hits + 16);
   }
   /// The springs of four slots; zero for a pair that had none.
-  Triple<Lanes> read(const std::uint32_t* slots) {
+  [[gnu::always_inline]] Triple<Lanes> read(const std::uint32_t* slots) {
     const auto next = [&](std::uint32_t slot) {
-      const GrainRecord& record = list_.springs[read_];
-      const bool has = record.w == static_cast<double>(slot);
-      read_ += has;
-      return has ? load(record) : Lanes{};
+      const bool has = slot >= had_spring;
+      const Lanes spring = has ? load_anywhere(&list_.springs[read_]) : Lanes{};
+      read_ += has ? 3 : 0;
+      return spring;
     };
     Triple<Lanes> s;
     s.x = next(slots[0]), s.y = next(slots[1]), s.z = next(slots[2]);
-    Lanes slot = next(slots[3]);
-    transpose(s.x, s.y, s.z, slot);
+    Lanes behind = next(slots[3]);
+    transpose(s.x, s.y, s.z, behind);
     return s;
   }
   /// Keeps the springs of the pairs that touch.
-  void write(const Triple<Lanes>& s, const std::uint32_t* slots, unsigned touching) {
-    Lanes a = s.x, b = s.y, c = s.z;
-    Lanes d{double(slots[0]), double(slots[1]), double(slots[2]), double(slots[3])};
+  [[gnu::always_inline]] void write(const Triple<Lanes>& s, const std::uint32_t* slots) {
+    Lanes a = s.x, b = s.y, c = s.z, d{};
     transpose(a, b, c, d);
-    const auto keep = [&](Lanes record, unsigned lane) {
-      store(fresh_[written_], record);
-      written_ += touching >> lane & 1u;
+    const auto keep = [&](Lanes spring, unsigned lane) {
+      store_anywhere(&fresh_[written_], spring);
+      written_ += (slots[lane] & touches_now) != 0 ? 3 : 0;
     };
     keep(a, 0), keep(b, 1), keep(c, 2), keep(d, 3);
   }
   ~SpringStream() {
-    fresh_[written_] = no_spring;
-    list_.springs.swap(fresh_);
+    const auto first = fresh_.begin();
+    list_.springs.assign(first, first + static_cast<std::ptrdiff_t>(written_) + 1);
   }
   SpringStream(const SpringStream&) = delete;
   SpringStream& operator=(const SpringStream&) = delete;
 
  private:
-  PairList& list_;
-  std::vector<GrainRecord>& fresh_;
-  std::size_t read_ = 0, written_ = 0;
+  PairList<Pair>& list_;
+  std::vector<double>& fresh_;
+  std::size_t read_ = 0, written_ = 0;  // numbers
 };
 
 /// Stands for SpringStream where there are none.
+template <class Pair>
 struct NoSprings {
-  NoSprings(PairList&, std::vector<GrainRecord>&, std::size_t) {}
+  NoSprings(PairList<Pair>&, std::vector<double>&, std::size_t) {}
 };
 
 /// Displacements of four pairs against each other, and their dashpots.
@@ -184,19 +221,21 @@ inline void pair_motion(const PassInput& in, const GrainPair* pairs, const Tripl
     pair.dashpot_per_step = Radii ? dashpot_over_step(in.law, inverse_masses, in.dt) : all_lanes(in.dashpot_per_step);
 }
 
-template <bool Friction, bool Damping, bool Radii, bool Periodic, bool Rim>
-PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, PassScratch& scratch) {
+template <bool Friction, bool Damping, bool Radii, bool Periodic, class Pair>
+PassSums run_list(PassInput in, PairList<Pair>& list, std::uint32_t begin, PassScratch& scratch) {
+  constexpr bool Rim = std::is_same_v<Pair, GrainPair>;
+  if constexpr (!Rim) in.grains += begin, in.moves += begin, in.far_away -= begin, begin = 0;
   const Lanes zero{};
   Lanes elastic{}, friction_loss{}, damping_loss{}, largest{}, virial_x{}, virial_y{}, virial_z{};
   const std::size_t hits = select_hits<Friction, Radii, Periodic>(in, list, scratch.hits);
-  std::conditional_t<Friction, SpringStream, NoSprings> springs(list, scratch.springs, hits);
+  std::conditional_t<Friction, SpringStream<Pair>, NoSprings<Pair>> springs(list, scratch.springs, hits);
   for (std::size_t h = 0; h < hits; h += 4) {
     const std::uint32_t* slots = &scratch.hits[h];
     if constexpr (Friction || Damping)
       if (h + 4 * fetch_ahead + 4 <= hits)
         for (std::size_t lane = 0; lane < 4; ++lane)
-          __builtin_prefetch(&in.moves[list.pairs[slots[4 * fetch_ahead + lane]].j]);
-    const FourPairs pairs{list.pairs[slots[0]], list.pairs[slots[1]], list.pairs[slots[2]], list.pairs[slots[3]]};
+          __builtin_prefetch(&in.moves[list.pairs[slots[4 * fetch_ahead + lane] & slot_bits].j]);
+    const FourPairs pairs = pairs_of(in, list, slots, hits - h);
     GrainPairInput<Lanes> pair;
     Triple<Lanes> image{};
     pair_distance<Radii, Periodic>(in, pairs.data(), pair, image);
@@ -206,7 +245,7 @@ PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, Pass
     if constexpr (Friction) pair.spring = springs.read(slots);
     const GrainContact<Lanes> contact = grain_contact<Friction, Damping>(in.law, pair);
     const auto touching = contact.overlap > zero;
-    if constexpr (Friction) springs.write(contact.spring, slots, lane_bits(touching));
+    if constexpr (Friction) springs.write(contact.spring, slots);
     if constexpr (Friction) friction_loss += contact.friction_loss;
     if constexpr (Damping) damping_loss += contact.damping_loss;
     if constexpr (Periodic) {
@@ -225,8 +264,8 @@ PassSums run_list(const PassInput& in, PairList& list, std::uint32_t begin, Pass
 /// Both lists of a block. A rim pair is seen by two blocks, half of its energies each.
 template <bool Friction, bool Damping, bool Radii, bool Periodic>
 PassSums run_block(const PassInput& in, GrainBlock& block, PassScratch& scratch) {
-  PassSums sums = run_list<Friction, Damping, Radii, Periodic, false>(in, block.inner, block.begin, scratch);
-  sums.add(run_list<Friction, Damping, Radii, Periodic, true>(in, block.rim, block.begin, scratch), 0.5);
+  PassSums sums = run_list<Friction, Damping, Radii, Periodic>(in, block.inner, block.begin, scratch);
+  sums.add(run_list<Friction, Damping, Radii, Periodic>(in, block.rim, block.begin, scratch), 0.5);
   return sums;
 }
 
