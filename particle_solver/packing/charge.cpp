@@ -91,6 +91,7 @@ GasState build_charge(const ChargeSpec& charge, const Vec3& centre, int copies, 
   gas.radius = std::cbrt(3.0 * explosive.fill * volume / (4.0 * 3.141592653589793 * static_cast<double>(count)));
   gas.gamma = explosive.gamma;
   gas.position = charge_positions({count, charge.radius, gas.radius, copies == 4, seed});
+  gas.position.shrink_to_fit();
   for (Vec3& x : gas.position) x += centre;
   gas.id.resize(count);
   for (std::size_t i = 0; i < count; ++i) gas.id[i] = static_cast<std::uint32_t>(i);
@@ -99,8 +100,6 @@ GasState build_charge(const ChargeSpec& charge, const Vec3& centre, int copies, 
   gas.velocity.resize(count);
   draw_velocities(gas, share * energy, seed);
   draw_internal_energies(gas, (1.0 - share) * energy, seed);
-  gas.plate_rebound.assign(count, std::numeric_limits<double>::quiet_NaN());
-  gas.latent_impulse.assign(count, {});
   gas.released.assign(count, 0);
   gas.release_time.resize(count);
   for (std::size_t i = 0; i < count; ++i)

@@ -11,8 +11,10 @@
 // Points are sorted by stored cell (counting sort, stable), x fastest: the cells of one x-row within reach are one run
 // of consecutive points. The same fold with nx = side / cell gives a periodic box for free.
 //
-// Data: start_[c] .. start_[c+1] are positions in the sorted order of the points in stored cell c; order()[p] is the
-// point.
+// Data: start(c) .. start(c + 1) are positions in the sorted order of the points in stored cell c; order()[p] is the
+// point. There are more cells than points, so starts are kept short: sixteen cells are a row, which has its start in
+// full and one byte a cell for the points of the row before the cell; only when a row holds more than a byte can count
+// do all cells have their start in full.
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -30,6 +32,9 @@ class GasCellGrid {
 
   /// Sorts the points; afterwards order() lists them cell by cell.
   void sort(std::span<const Vec3> points);
+  /// The same for points that are worked out when they are asked for, at(i); `scratch` holds one number a point.
+  template <class At>
+  void sort(std::size_t count, At&& at, std::span<std::uint32_t> scratch);
   std::span<const std::uint32_t> order() const { return order_; }
 
   /// Calls body(begin, end) with runs of the sorted order that together hold every point within `reach` of `centre`.
@@ -53,26 +58,43 @@ class GasCellGrid {
     return low > 0.0 ? low : high > 0.0 ? high : 0.0;
   }
   std::uint32_t stored_cell(const Vec3& point) const;
+  void start_counting(std::size_t points);
+  void sort_by(std::span<const std::uint32_t> cell);
+  std::uint32_t start(std::uint32_t cell) const {
+    return full_.empty() ? row_start_[cell / cells_a_row] + before_[cell] : full_[cell];
+  }
   template <class Body>
   [[gnu::always_inline]] void visit_row(std::uint32_t row, int first, int last, Body&& body) const;
 
   bool periodic_ = false;
   int nx_ = 0, ny_ = 0, nz_ = 0;
   Vec3 width_, inverse_width_;
-  std::vector<std::uint32_t> start_, cell_, order_;
+  static constexpr std::uint32_t cells_a_row = 16;  // bytes of an SSE register
+  std::vector<std::uint32_t> row_start_, order_, full_;
+  std::vector<std::uint8_t> before_;
 };
+
+template <class At>
+void GasCellGrid::sort(std::size_t count, At&& at, std::span<std::uint32_t> scratch) {
+  start_counting(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    scratch[i] = stored_cell(at(i));
+    ++row_start_[scratch[i] / cells_a_row];
+  }
+  sort_by(scratch.first(count));
+}
 
 template <class Body>
 inline void GasCellGrid::visit_row(std::uint32_t row, int first, int last, Body&& body) const {
   // first and last are folded; a run that wraps round the end of the row comes in two parts.
   const auto a = row + static_cast<std::uint32_t>(first), b = row + static_cast<std::uint32_t>(last) + 1;
-  if (a < b) {
-    if (start_[a] < start_[b]) body(start_[a], start_[b]);
-    return;
-  }
-  const auto end = row + static_cast<std::uint32_t>(nx_);
-  if (start_[a] < start_[end]) body(start_[a], start_[end]);
-  if (start_[row] < start_[b]) body(start_[row], start_[b]);
+  const auto run = [&](std::uint32_t from, std::uint32_t to) {
+    const std::uint32_t begin = start(from), end = start(to);
+    if (begin < end) body(begin, end);
+  };
+  if (a < b) return run(a, b);
+  run(a, row + static_cast<std::uint32_t>(nx_));
+  run(row, b);
 }
 
 template <bool Periodic, class Body>

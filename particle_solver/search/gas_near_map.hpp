@@ -15,6 +15,8 @@ class GasNearMap {
  public:
   /// Marks everything within `reach` [m] of the points.
   void mark(std::span<const Vec3> points, double reach);
+  template <class At>
+  void mark(std::size_t count, At&& at, double reach);
   bool near(const Vec3& point) const;
 
  private:
@@ -25,9 +27,20 @@ class GasNearMap {
   std::size_t stored(int x, int y, int z) const {
     return static_cast<std::size_t>(((z & mask_) * (mask_ + 1) + (y & mask_)) * (mask_ + 1) + (x & mask_));
   }
+  void clear(std::size_t points, double reach);
+  void mark(const Vec3& point);
+
   double inverse_width_ = 0.0;
   int mask_ = 0;
-  std::vector<std::uint8_t> holds_, near_;
+  static constexpr std::uint8_t holds = 3, is_near = 1;  // what holds gas is near it
+  std::vector<std::uint8_t> flags_;
 };
+
+/// Points that are worked out when they are asked for, at(i).
+template <class At>
+void GasNearMap::mark(std::size_t count, At&& at, double reach) {
+  clear(count, reach);
+  for (std::size_t i = 0; i < count; ++i) mark(at(i));
+}
 
 }  // namespace standoff::particles

@@ -179,13 +179,11 @@ class Lister {
   template <class Pair, class Shorten>
   void fill(PairList<Pair>& list, const std::vector<GrainPair>& pairs, Shorten&& shorten) const {
     list.count = pairs.size();
-    list.pairs = {};
-    list.pairs.resize(pairs.size() / 4 * 4 + 4);
+    list.pairs = std::vector<Pair>(pairs.size() / 4 * 4 + 4);
     std::transform(pairs.begin(), pairs.end(), list.pairs.begin(), shorten);
     if (!options_.springs) return;
     list.springs.assign(1, 0.0);
-    list.stretched = {};
-    list.stretched.resize(list.groups());
+    list.stretched = std::vector<std::uint8_t>(list.groups());
   }
   /// A periodic box of fewer than three cells: cells would meet themselves, so compare all with all.
   void run_all(const GrainBlock& block) {

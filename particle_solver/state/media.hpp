@@ -6,11 +6,41 @@
 // back, x -= (v_new - v_old) t, so that x + v h is where the particle ends; gas_drift then does x += v h for
 // everything.
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "coupling/base/vec3.hpp"
 
 namespace standoff::particles {
+
+/// What was given to particles that wait. Few have any at a time, those next to the front: kept by id.
+class LatentImpulses {
+ public:
+  bool empty() const { return impulse_.empty(); }
+  Vec3 of(std::uint32_t id) const {
+    const auto found = impulse_.find(id);
+    return found == impulse_.end() ? Vec3{} : found->second;
+  }
+  void add(std::uint32_t id, const Vec3& impulse) { impulse_[id] += impulse; }
+  void forget(std::uint32_t id) { impulse_.erase(id); }
+  template <class Archive>
+  void archive(Archive& a) {
+    std::vector<Entry> entries;
+    for (const auto& [id, impulse] : impulse_) entries.push_back({impulse, id});
+    a(entries);
+    if constexpr (Archive::reading) {
+      impulse_.clear();
+      for (const Entry& entry : entries) impulse_[static_cast<std::uint32_t>(entry.id)] = entry.impulse;
+    }
+  }
+
+ private:
+  struct Entry {
+    Vec3 impulse;
+    std::uint64_t id = 0;
+  };
+  std::map<std::uint32_t, Vec3> impulse_;  // N s
+};
 
 /// Detonation products: equal hard spheres with a reservoir of internal energy. Air: points with one, see air.hpp.
 struct GasState {
@@ -22,9 +52,9 @@ struct GasState {
   std::vector<double> internal_energy;  // J per particle, >= 0
   std::vector<double> release_time;     // s; empty once all are released
   std::vector<std::uint8_t> released;   // 0/1; empty once all are released
-  std::vector<Vec3> latent_impulse;     // N s taken by an unreleased particle, given back at release; empty likewise
-  std::vector<double>
-      plate_rebound;  // kg m/s towards the charge after the last contact with the plate; NaN before the first
+  LatentImpulses latent_impulse;        // N s taken by unreleased particles, given back at release
+  std::vector<double> plate_rebound;    // kg m/s towards the charge after the last contact with the plate; NaN before a
+                                        // particle's first, empty before the first of all
   std::vector<std::uint8_t> disturbed;  // air: 1 once anything but still air has touched it; empty for products
   std::vector<std::uint32_t> id;
   std::size_t size() const { return position.size(); }

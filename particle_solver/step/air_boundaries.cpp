@@ -16,8 +16,21 @@ void AirBoundaries::take_out_sleepers(Air& air, Boundaries& exits, BoundaryBooks
   exits.take_out(air.particles, out_, books);
 }
 
+namespace {
+
+/// Awake air grows for ever; arrays that double would be half empty.
+void make_room_for_one(GasState& gas) {
+  if (gas.size() < gas.position.capacity()) return;
+  const std::size_t room = gas.size() + gas.size() / 8 + 256;
+  gas.position.reserve(room), gas.velocity.reserve(room), gas.internal_energy.reserve(room);
+  gas.plate_rebound.reserve(room), gas.disturbed.reserve(room), gas.id.reserve(room);
+}
+
+}  // namespace
+
 void AirBoundaries::add(Air& air, const Vec3& position, const Vec3& velocity, double internal, BoundaryBooks& books) {
   GasState& gas = air.particles;
+  make_room_for_one(gas);
   gas.position.push_back(position), gas.velocity.push_back(velocity);
   if (air.ambient.zeta > 0.0) gas.internal_energy.push_back(internal);
   gas.plate_rebound.push_back(std::numeric_limits<double>::quiet_NaN());

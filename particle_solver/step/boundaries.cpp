@@ -108,7 +108,7 @@ void Boundaries::take_out(GasState& gas, const std::vector<std::uint32_t>& out, 
   }
   totals_.gas += static_cast<long>(out.size());
   drop(gas.position, out), drop(gas.velocity, out), drop(gas.internal_energy, out);
-  drop(gas.release_time, out), drop(gas.released, out), drop(gas.latent_impulse, out);
+  drop(gas.release_time, out), drop(gas.released, out);
   drop(gas.plate_rebound, out), drop(gas.disturbed, out), drop(gas.id, out);
 }
 

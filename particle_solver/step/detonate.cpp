@@ -20,11 +20,12 @@ constexpr double least_thermal_share = 0.5;
 /// Who is near whom. Nobody moves during the stage, so one sort serves it; it is made when it is first asked for.
 class Neighbours {
  public:
-  explicit Neighbours(const GasState& gas) : gas_(gas) {}
+  Neighbours(const GasState& gas, GasCellGrid& grid) : gas_(gas), grid_(grid) {}
 
   /// Others within `reach` of particle i that wait, or that do not, in the order of the cells.
   Indices near(std::uint32_t i, double reach, bool waiting) {
-    if (grid_.order().empty()) {
+    if (!sorted_) {
+      sorted_ = true;
       grid_.shape(gas_.size(), near_in_radii * gas_.radius);
       grid_.sort(gas_.position);
     }
@@ -41,7 +42,8 @@ class Neighbours {
 
  private:
   const GasState& gas_;
-  GasCellGrid grid_;
+  GasCellGrid& grid_;
+  bool sorted_ = false;
 };
 
 /// Gives the impulse `rest` to released particles; false if they cannot pay for it.
@@ -64,7 +66,7 @@ bool give_to_released(GasState& gas, const Indices& group, const Vec3& rest) {
 void hand_on(GasState& gas, Neighbours& neighbours, std::uint32_t i, const Vec3& rest) {
   for (double reach = near_in_radii; reach <= farthest_in_radii; reach *= 2.0) {
     const Indices waiting = neighbours.near(i, reach * gas.radius, true);
-    for (const auto k : waiting) gas.latent_impulse[k] += rest / static_cast<double>(waiting.size());
+    for (const auto k : waiting) gas.latent_impulse.add(gas.id[k], rest / static_cast<double>(waiting.size()));
     if (!waiting.empty()) return;
   }
   for (double reach = near_in_radii;; reach *= 2.0) {
@@ -79,17 +81,17 @@ void hand_on(GasState& gas, Neighbours& neighbours, std::uint32_t i, const Vec3&
 }
 
 void let_go(GasState& gas, Neighbours& neighbours, std::uint32_t i) {
-  const Release loose = release(gas.mass, gas.velocity[i], gas.internal_energy[i], gas.latent_impulse[i]);
+  const Release loose = release(gas.mass, gas.velocity[i], gas.internal_energy[i], gas.latent_impulse.of(gas.id[i]));
   gas.velocity[i] = loose.velocity;
   gas.internal_energy[i] = loose.internal_energy;
-  gas.latent_impulse[i] = {};
+  gas.latent_impulse.forget(gas.id[i]);
   gas.released[i] = 1;
   if (squared_norm(loose.handed_on) > 0.0) hand_on(gas, neighbours, i, loose.handed_on);
 }
 
 }  // namespace
 
-long detonate(GasState& gas, double time) {
+long detonate(GasState& gas, double time, GasCellGrid* idle) {
   if (gas.all_released()) return 0;
   Indices due;
   for (std::uint32_t i = 0; i < gas.size(); ++i)
@@ -98,12 +100,12 @@ long detonate(GasState& gas, double time) {
   std::sort(due.begin(), due.end(), [&](auto i, auto k) {
     return std::tuple{gas.release_time[i], gas.id[i]} < std::tuple{gas.release_time[k], gas.id[k]};
   });
-  Neighbours neighbours(gas);
+  GasCellGrid own;
+  Neighbours neighbours(gas, idle != nullptr ? *idle : own);
   for (const auto i : due) let_go(gas, neighbours, i);
   if (std::all_of(gas.released.begin(), gas.released.end(), [](auto flag) { return flag != 0; })) {
-    gas.released = {};
-    gas.release_time = {};
-    gas.latent_impulse = {};
+    gas.released = std::vector<std::uint8_t>();  // `= {}` would keep the memory
+    gas.release_time = std::vector<double>();
   }
   return static_cast<long>(due.size());
 }
@@ -117,7 +119,7 @@ GasTotals gas_totals(const GasState& gas) {
       totals.kinetic += kinetic;
       totals.internal += gas.internal_energy[i];
     } else {
-      totals.momentum += gas.latent_impulse[i];
+      totals.momentum += gas.latent_impulse.of(gas.id[i]);
       totals.waiting += kinetic + gas.internal_energy[i];
     }
   }

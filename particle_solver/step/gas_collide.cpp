@@ -11,7 +11,7 @@ namespace {
 
 // A sub-step needs 3 to 15 rounds. Only a jam (many spheres overlapping at one place and instant) could need hundreds;
 // what is left then overlaps in the next sub-step and fires at once, so nothing is lost but time.
-constexpr int most_rounds = 1000;
+constexpr int most_rounds = gas::Marks::most_rounds;
 
 // Neighbours in space are kept neighbours in memory by putting the state in cell order now and then.
 constexpr std::uint32_t calls_between_sorts = 32;
@@ -37,6 +37,10 @@ GasCollide::GasCollide(const GasCollideOptions& options) : impl_(std::make_uniqu
 }
 GasCollide::~GasCollide() = default;
 
+GasCellGrid& GasCollide::idle_grid() {
+  return impl_->work.grid;
+}
+
 GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* sheet, double h, std::uint32_t step) {
   GasCollideCounts counts;
   if (gas.size() == 0) return counts;
@@ -45,7 +49,9 @@ GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* s
   if (options.periodic_side > 0.0 && (sand != nullptr || sheet != nullptr || options.mirrors.on || options.walls.on))
     throw Stop(ExitCode::guard,
                "gas_collide: a periodic box holds gas alone; give it no sand, sheet, mirrors or walls");
-  work.h = h, work.step = step, work.sheet = sheet;
+  if (gas.size() >= gas::Choices::most_partners)
+    throw Stop(ExitCode::guard, "gas_collide: more than 2^29 gas particles; lower charge.particles");
+  work.h = h, work.per_step = 1.0 / h, work.step = step, work.sheet = sheet, work.gas = &gas, work.sand = sand;
   work.seed = options.seed, work.threads = options.threads,
   work.planes = reflecting_planes(options.mirrors.on, options.walls.on, options.walls.lower, options.walls.upper);
   work.periodic_side = options.periodic_side;
@@ -53,18 +59,19 @@ GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* s
 
   std::vector<long>& hits_by_round = impl_->hits_by_round;
   hits_by_round.clear();
-  gas::load(work, gas, sand);
-  for (work.round = 1; work.round <= most_rounds && !work.visit.empty(); ++work.round) {
-    counts.searches += static_cast<long>(work.visit.size());
-    counts.candidates += gas::search(work);
-    gas::resolve(work, gas, counts);
+  gas::load(work);
+  for (work.round = 1; work.round <= most_rounds && (work.round == 1 || !work.visit.empty()); ++work.round) {
+    const gas::Looked looked = gas::search(work);
+    if (looked.searches == 0) break;  // all wait
+    counts.searches += looked.searches, counts.candidates += looked.candidates;
+    gas::resolve(work, counts);
     gas::choose_visitors(work);
     hits_by_round.push_back(counts.hits());
   }
   counts.rounds = work.round - 1;
   counts.usual_rounds = rounds_until_most(hits_by_round);
   if (!work.visit.empty()) counts.deferred = static_cast<long>(work.waiting.size());
-  gas::store(work, gas, sand, step % calls_between_sorts == 0);
+  if (step % calls_between_sorts == 0) gas::sort_state(work);
   return counts;
 }
 

@@ -20,6 +20,7 @@
 
 #include "coupling/case/case_spec.hpp"
 #include "particle_solver/kernels/reflecting_planes.hpp"
+#include "particle_solver/search/gas_cell_grid.hpp"
 #include "particle_solver/state/media.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
 
@@ -61,6 +62,9 @@ class GasCollide {
   /// function returned before (0 at first), also when a shorter step was then taken to end a window: growth builds on
   /// it.
   double suggest_step(const GasState& gas, const GasCollideCounts& last, double last_step, double cap) const;
+
+  /// The grid of run(), which no one needs between two calls.
+  GasCellGrid& idle_grid();
 
  private:
   struct Impl;

@@ -1,5 +1,7 @@
-// Into cell order at the start of a sub-step, and back at its end.
+// Into cell order at the start of a sub-step, and now and then the state itself.
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
 
 #include "particle_solver/step/gas_work.hpp"
 
@@ -9,39 +11,44 @@ namespace {
 // Below this many items a parallel region costs more than it saves; the result does not depend on it.
 constexpr std::size_t worth_threads = 2000;
 
-void load_bodies(Work& work, const GasState& gas) {
+/// Where the grid believes a gas particle to be.
+struct MiddleOfGas {
+  const GasState& gas;
+  double h;
+  bool moves(std::size_t i) const { return gas.all_released() || gas.released[i] != 0; }
+  Vec3 operator()(std::size_t i) const {
+    return moves(i) ? gas.position[i] + gas.velocity[i] * (0.5 * h) : gas.position[i];
+  }
+};
+
+void load_bodies(Work& work, const MiddleOfGas& middle) {
+  const GasState& gas = *work.gas;
   const std::size_t count = gas.size();
-  work.middle.resize(count);
+  work.lanes.resize(count);
   double fastest = 0.0, square_sum = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool moves = gas.all_released() || gas.released[i] != 0;
-    work.middle[i] = moves ? gas.position[i] + gas.velocity[i] * (0.5 * work.h) : gas.position[i];
-    const double square = moves ? squared_norm(gas.velocity[i]) : 0.0;
+    const Vec3 velocity = middle.moves(i) ? gas.velocity[i] : Vec3{};
+    const double square = squared_norm(velocity);
     fastest = std::max(fastest, square);
     square_sum += square;
+    work.lanes.measure(gas.position[i], velocity * work.h);
   }
   work.excursion = 0.5 * work.h * std::sqrt(fastest);
   const double usual = 0.5 * work.h * std::sqrt(square_sum / static_cast<double>(std::max<std::size_t>(count, 1)));
   work.grid.shape(count, 2.0 * work.radius + work.excursion + usual, work.periodic_side);
-  work.grid.sort(work.middle);
+  work.grid.sort(count, middle, work.choice.scratch(count));
 
-  work.body.resize(count);
-  work.lanes.resize(count);
-  work.binned.resize(count);
-  work.unreleased.resize(gas.all_released() ? 0 : count);
+  work.since.assign(count, 0.0);
   const auto order = work.grid.order();
 #pragma omp parallel for num_threads(work.threads) schedule(static) if (count > worth_threads)
   for (std::size_t p = 0; p < count; ++p) {
     const Index i = order[p];
-    const bool waits = !gas.all_released() && gas.released[i] == 0;
-    work.body[p] = {gas.position[i], 0.0, waits ? Vec3{} : gas.velocity[i], i, gas.id[i]};
-    work.lanes.set(p, work.body[p].start, work.body[p].velocity, 0.0);
-    work.binned[p] = work.middle[i];
-    if (!work.unreleased.empty()) work.unreleased[p] = waits ? 1 : 0;
+    work.lanes.set(p, gas.position[i], middle.moves(i) ? gas.velocity[i] * work.h : Vec3{});
   }
 }
 
-void load_grains(Work& work, const SandState& sand) {
+void load_grains(Work& work, const MiddleOfGas& middle_of_gas) {
+  const SandState& sand = *work.sand;
   double fastest = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < sand.size(); ++i) {
     fastest = std::max(fastest, squared_norm(sand.velocity[i]));
@@ -53,83 +60,75 @@ void load_grains(Work& work, const SandState& sand) {
   // The middles of the paths of a grain and a body that meet are no farther apart than this; the factor leaves room for
   // bodies that turn towards another grain within the sub-step.
   const double reach = contact + work.excursion_grain + 2.0 * work.excursion;
-  work.near_map.mark(work.middle, reach);
-  work.near_grain.clear();
+  work.near_map.mark(work.count(), middle_of_gas, reach);
+  const auto middle = [&](std::size_t i) { return sand.position[i] + sand.velocity[i] * (0.5 * work.h); };
+  std::vector<Index> near;
   for (std::size_t i = 0; i < sand.size(); ++i)
-    if (work.near_map.near(sand.position[i] + sand.velocity[i] * (0.5 * work.h)))
-      work.near_grain.push_back(static_cast<Index>(i));
+    if (work.near_map.near(middle(i))) near.push_back(static_cast<Index>(i));
 
-  const std::size_t count = work.near_grain.size();
-  work.middle.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index i = work.near_grain[k];
-    work.middle[k] = sand.position[i] + sand.velocity[i] * (0.5 * work.h);
-  }
+  const std::size_t count = near.size();
   work.grain_grid.shape(count, contact + work.excursion_grain + work.excursion);
-  work.grain_grid.sort(work.middle);
-  work.grain.resize(count);
+  std::vector<Index> scratch(count);
+  work.grain_grid.sort(
+      count, [&](std::size_t k) { return middle(near[k]); }, scratch);
+  work.grain.assign(count, {});
   work.grain_lanes.resize(count);
-  work.grain_lanes.contact.assign(count + Lanes::pad, 0.0);
+  work.grain_lanes.contact.assign(count + Lanes::pad, 0.0f);
   for (std::size_t q = 0; q < count; ++q) {
-    const Index k = work.grain_grid.order()[q], i = work.near_grain[k];
-    Grain& grain = work.grain[q];
-    grain = {};
-    grain.start = sand.position[i], grain.velocity = sand.velocity[i], grain.binned = work.middle[k];
-    grain.radius = sand.radius_of(i), grain.inverse_mass = 1.0 / sand.mass_of(i), grain.source = i;
-    work.grain_lanes.set(q, grain.start, grain.velocity, 0.0);
-    work.grain_lanes.contact[q] = work.radius + grain.radius;
+    const Index i = near[work.grain_grid.order()[q]];
+    const Vec3 path = sand.velocity[i] * work.h;
+    work.grain[q].source = i;
+    work.grain_lanes.set(q, sand.position[i], path);
+    work.grain_lanes.measure(sand.position[i], path);
+    work.grain_lanes.contact[q] = static_cast<float>(work.radius + sand.radius_of(i));
   }
 }
 
+/// Puts numbers in cell order; `number(i)` is one of the i-th particle, and `room` holds as many.
+template <class Number>
+void permute(Number&& number, std::span<const Index> order, std::span<double> room) {
+  using T = std::remove_reference_t<decltype(number(Index{}))>;
+  static_assert(sizeof(T) <= sizeof(double));
+  for (std::size_t p = 0; p < order.size(); ++p) std::memcpy(&room[p], &number(order[p]), sizeof(T));
+  for (std::size_t p = 0; p < order.size(); ++p) std::memcpy(&number(static_cast<Index>(p)), &room[p], sizeof(T));
+}
 template <class T>
-void permute(std::vector<T>& values, std::span<const std::uint32_t> order) {
-  if (values.empty()) return;
-  std::vector<T> sorted(values.size());
-  for (std::size_t p = 0; p < order.size(); ++p) sorted[p] = values[order[p]];
-  values.swap(sorted);
+void permute(std::vector<T>& values, std::span<const Index> order, std::span<double> room) {
+  if (!values.empty()) permute([&](Index i) -> T& { return values[i]; }, order, room);
+}
+void permute(std::vector<Vec3>& values, std::span<const Index> order, std::span<double> room) {
+  for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z})
+    permute([&](Index i) -> double& { return values[i].*axis; }, order, room);
 }
 
 }  // namespace
 
-void load(Work& work, const GasState& gas, const SandState* sand) {
-  const std::size_t count = gas.size();
-  work.radius = gas.radius, work.mass = gas.mass;
-  load_bodies(work, gas);
+void load(Work& work) {
+  const std::size_t count = work.gas->size();
+  const MiddleOfGas middle{*work.gas, work.h};
+  work.radius = work.gas->radius, work.mass = work.gas->mass;
+  load_bodies(work, middle);
   work.grain.clear();
-  if (sand != nullptr && sand->size() > 0) load_grains(work, *sand);
+  if (work.sand != nullptr && work.sand->size() > 0) load_grains(work, middle);
 
-  work.choice.assign(count, {});
-  work.touched_in.assign(count, 0);
-  work.taken_in.assign(count, 0);
-  work.pending.assign(count, 0);
-  work.waiting.clear();
-  work.visit.clear();
-  work.touched_grains.clear();
-  for (std::size_t p = 0; p < count; ++p)
-    if (!work.is_unreleased(static_cast<Index>(p))) work.visit.push_back(static_cast<Index>(p));
+  work.choice.reset(count);
+  work.mark.reset(count);
+  work.moved.assign(count, 0.0f);
+  work.waiting.clear(), work.visit.clear(), work.offered.clear();
+  work.touched_grains.clear(), work.stale.clear();
 }
 
-void store(const Work& work, GasState& gas, SandState* sand, bool sort_state) {
-  for (const Body& body : work.body) {
-    if (body.since == 0.0 && work.touched_in[static_cast<std::size_t>(&body - work.body.data())] == 0) continue;
-    gas.position[body.source] = body.start;
-    gas.velocity[body.source] = body.velocity;
-  }
-  for (const Grain& grain : work.grain) {
-    if (grain.touched_in == 0) continue;
-    sand->position[grain.source] = grain.start;
-    sand->velocity[grain.source] = grain.velocity;
-  }
-  if (!sort_state) return;
+void sort_state(Work& work) {
+  GasState& gas = *work.gas;
   const auto order = work.grid.order();
-  permute(gas.position, order);
-  permute(gas.velocity, order);
-  permute(gas.internal_energy, order);
-  permute(gas.release_time, order);
-  permute(gas.released, order);
-  permute(gas.latent_impulse, order);
-  permute(gas.plate_rebound, order);
-  permute(gas.id, order);
+  const auto room = work.choice.room();
+  permute(gas.position, order, room);
+  permute(gas.velocity, order, room);
+  permute(gas.internal_energy, order, room);
+  permute(gas.release_time, order, room);
+  permute(gas.released, order, room);
+  permute(gas.plate_rebound, order, room);
+  permute(gas.id, order, room);
 }
 
 }  // namespace standoff::particles::gas

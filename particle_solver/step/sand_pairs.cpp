@@ -192,22 +192,31 @@ void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at
 
   const Vec3* periodic = options.periodic_box ? &box : nullptr;
   const double contact = 2.0 * largest_radius, cutoff = contact + skin;
+  // The arrays of displacements come back last: without them there is room for old beside new springs.
+  moves = std::vector<GrainRecord>(), list_position = std::vector<Vec3>();
   cells.build(at, cutoff, periodic);
-  grains.assign(count + 1, far_away), moves.assign(count + 1, {});
-  id.resize(count), list_position.resize(count);
+  grains.assign(count + 1, far_away);
+  id.resize(count);
   std::vector<std::uint32_t> old_index(springs ? count : 0);
 #pragma omp parallel for schedule(static) num_threads(options.threads)
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t s = cells.order()[i];
-    id[i] = sand.id[s], list_position[i] = at[s];
+    id[i] = sand.id[s];
     if (springs) old_index[i] = old_place[id[i]];
     grains[i] = {at[s].x, at[s].y, at[s].z, sand.radius_of(s)};
-    moves[i] = {moved[s].x, moved[s].y, moved[s].z, 1.0 / sand.mass_of(s)};
   }
+  old_place = std::vector<std::uint32_t>();
   list_grain_pairs(cells, grains, {cutoff, skin, radii, springs, periodic, options.threads}, blocks);
   if (springs && !history.empty()) {
     history.apply(blocks, old_index, options.threads);
     books.friction_loss += 0.5 * options.law.stiffness * history.finish();
+  }
+  moves.resize(count + 1), list_position.resize(count);
+#pragma omp parallel for schedule(static) num_threads(options.threads)
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t s = cells.order()[i];
+    list_position[i] = at[s];
+    moves[i] = {moved[s].x, moved[s].y, moved[s].z, 1.0 / sand.mass_of(s)};
   }
   drift.restart(cells, contact, skin);
   list_box = box, calls_since_list = 0, ready = true;

@@ -102,7 +102,8 @@ void TimeLoop::compose() {
     });
   if (scene_.has_air) compose_air();
   if (gas) {
-    if (!gas->all_released()) add(sub_step_, "detonate", [this](double time, double) { detonate(scene_.gas, time); });
+    if (!gas->all_released())
+      add(sub_step_, "detonate", [this](double time, double) { detonate(scene_.gas, time, &gas_->idle_grid()); });
     add(sub_step_, "gas_collide", [this, sand](double, double h) {
       last_gas_ = gas_->run(scene_.gas, sand, &scene_.sheet, h, static_cast<std::uint32_t>(totals_.sub_steps));
       totals_.impulse_gas += last_gas_.plate_impulse;

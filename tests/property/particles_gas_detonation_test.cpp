@@ -82,7 +82,7 @@ TEST(Detonate_FromTheCentre_TheOutermostHandTheirRestToProducts, EnergyAndMoment
   const double energy = gas_totals(gas).energy(), each = 1.5 * std::sqrt(2.0 * energy * gas.mass / 800.0);
   for (std::size_t i = 0; i < gas.size(); ++i) {
     const Vec3 out = gas.position[i] - Vec3{0, 0, 0.15};
-    gas.latent_impulse[i] = out / norm(out) * each;
+    gas.latent_impulse.add(gas.id[i], out / norm(out) * each);
   }
   const Vec3 momentum = gas_totals(gas).momentum;
   for (double time = 0.0; !gas.all_released(); time += 1e-7) {
@@ -95,7 +95,7 @@ TEST(Detonate_FromTheCentre_TheOutermostHandTheirRestToProducts, EnergyAndMoment
 
 TEST(Detonate_ImpulseBeyondAllEnergy_StopsWithAReason, NothingIsInvented) {
   GasState gas = build_charge(c4(400, 0.2), {0, 0, 0.15}, 4, 1);
-  for (Vec3& impulse : gas.latent_impulse) impulse.z = -10.0;
+  for (const std::uint32_t id : gas.id) gas.latent_impulse.add(id, {0.0, 0.0, -10.0});
   EXPECT_THROW(detonate(gas, 1.0), Stop);
 }
 

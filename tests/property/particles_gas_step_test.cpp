@@ -41,8 +41,7 @@ TEST(GasStep_FewRounds_GrowsSlowly, ManyRoundsOrLongSearchesShrinkIt) {
 TEST(GasStep_WhileGasWaits_StaysAtTheRule, NoGrowth) {
   GasState gas = test::lattice_gas(3, 0.2, 5.0 / 3.0, 0.0);
   const double expected = rule(gas);
-  gas.released.assign(gas.size(), 0), gas.release_time.assign(gas.size(), 1.0),
-      gas.latent_impulse.assign(gas.size(), {});
+  gas.released.assign(gas.size(), 0), gas.release_time.assign(gas.size(), 1.0);
   const GasCollide collide({});
   EXPECT_NEAR(collide.suggest_step(gas, after_rounds(1), 5.0 * expected, 1.0), expected, 1e-14);
 }
