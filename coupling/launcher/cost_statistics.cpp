@@ -64,6 +64,7 @@ CostRun::CostRun()
       peak_m(unknown),
       impulse_Ns(unknown),
       seconds(unknown),
+      processor_s(unknown),
       energy_error_particles(unknown),
       energy_error_structure(unknown) {}
 Spread::Spread() : mean(unknown), deviation(unknown) {}
@@ -99,6 +100,7 @@ std::vector<LevelCost> level_costs(const std::vector<CostRun>& runs, const std::
     cost.peak.own = spread_over(runs, level, &CostRun::peak_m);
     cost.impulse.own = spread_over(runs, level, &CostRun::impulse_Ns);
     cost.seconds = spread_over(runs, level, &CostRun::seconds);
+    cost.processor_s = spread_over(runs, level, &CostRun::processor_s);
     if (cost.runs + cost.failed > 0) costs.push_back(cost);
   }
   const LevelCost* finest = finest_of(costs);
@@ -130,7 +132,7 @@ std::string level_for_error(const std::vector<LevelCost>& costs, double wanted) 
 
 std::string cost_table(const std::vector<LevelCost>& costs) {
   std::vector<std::vector<std::string>> rows{{"level", "runs", "permanent mm", "error", "profile max mm", "peak mm",
-                                              "error", "impulse N s", "error", "seconds"}};
+                                              "error", "impulse N s", "error", "seconds", "CPU s"}};
   const LevelCost* finest = finest_of(costs);
   for (const LevelCost& c : costs) {
     const std::string runs = c.failed > 0 ? fmt::format("{} ({} failed)", c.runs, c.failed) : std::to_string(c.runs);
@@ -141,9 +143,10 @@ std::string cost_table(const std::vector<LevelCost>& costs) {
     rows.push_back({c.level, runs, spread_text(c.permanent.own, 1e3, ""), error_text(c.permanent, finest->permanent),
                     spread_text(c.maximum.own, 1e3, ""), spread_text(c.peak.own, 1e3, ""),
                     error_text(c.peak, finest->peak), spread_text(c.impulse.own, 1.0, ""),
-                    error_text(c.impulse, finest->impulse), spread_text(c.seconds, 1.0, "")});
+                    error_text(c.impulse, finest->impulse), spread_text(c.seconds, 1.0, ""),
+                    spread_text(c.processor_s, 1.0, "")});
   }
-  std::string text = table_text(rows, {false, true, true, true, true, true, true, true, true, true});
+  std::string text = table_text(rows, {false, true, true, true, true, true, true, true, true, true, true});
   text += "\n  mean ± spread over seeds; error against the finest level that was run ± its standard error\n";
   for (const double wanted : {0.1, 0.05, 0.02}) {
     const std::string level = level_for_error(costs, wanted);
@@ -158,12 +161,12 @@ std::string cost_csv(const std::vector<CostRun>& runs) {
   std::string text =
       "level,seed,exit_code,charge_particles,sand_particles,elements,permanent_centre_deflection_m,"
       "permanent_max_deflection_m,peak_centre_deflection_m,impulse_Ns,wall_s,energy_error_particles,"
-      "energy_error_structure\n";
+      "energy_error_structure,cpu_s\n";
   for (const CostRun& r : runs)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.level, r.seed, r.exit_code, r.charge_particles,
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.level, r.seed, r.exit_code, r.charge_particles,
                         r.sand_particles, r.elements, field(r.permanent_m), field(r.maximum_m), field(r.peak_m),
                         field(r.impulse_Ns), field(r.seconds), field(r.energy_error_particles),
-                        field(r.energy_error_structure));
+                        field(r.energy_error_structure), field(r.processor_s));
   return text;
 }
 

@@ -8,6 +8,12 @@
 
 namespace standoff::launch {
 
+/// Wall-clock seconds of one stage of a process in a run; "exchange" and "wait" beside the stages.
+struct StageTime {
+  std::string process, stage;
+  double seconds = 0.0;
+};
+
 /// One finished or failed run. A value that a run did not produce is NaN.
 struct CostRun {
   std::string level;
@@ -16,8 +22,10 @@ struct CostRun {
   long charge_particles = 0, sand_particles = 0, elements = 0;
   double permanent_m, maximum_m, peak_m;  // deflections
   double impulse_Ns;
-  double seconds;
+  double seconds;      // by the clock on the wall: longer where others use the machine
+  double processor_s;  // of all processes together
   double energy_error_particles, energy_error_structure;
+  std::vector<StageTime> stages;
   CostRun();
 };
 
@@ -41,7 +49,7 @@ struct LevelCost {
   std::string level;
   int runs = 0, failed = 0;
   LevelError permanent, maximum, peak, impulse;
-  Spread seconds;
+  Spread seconds, processor_s;
 };
 
 /// One entry for each of `levels` that has runs, in that order; the last with a successful run is the finest.

@@ -14,6 +14,7 @@
 #include "coupling/launcher/prediction.hpp"
 #include "coupling/launcher/run_folder.hpp"
 #include "coupling/launcher/run_record.hpp"
+#include "coupling/launcher/stage_costs.hpp"
 #include "coupling/launcher/supervisor.hpp"
 
 namespace standoff::launch {
@@ -129,6 +130,11 @@ CostRun cost_run_of(const std::string& run_folder, const PlannedRun& planned) {
   take(run.seconds, "timing.wall_s");
   take(run.energy_error_particles, "conservation.energy_error_particles");
   take(run.energy_error_structure, "conservation.energy_error_structure");
+  if (const auto processes = record->find("timing"); processes != record->end() && processes->contains("cpu_s")) {
+    run.processor_s = 0.0;
+    for (const auto& [process, seconds] : (*processes)["cpu_s"].items()) run.processor_s += seconds.get<double>();
+  }
+  run.stages = stage_times_of(*record);
   return run;
 }
 

@@ -13,6 +13,7 @@
 #include "coupling/launcher/effect_study.hpp"
 #include "coupling/launcher/report_script.hpp"
 #include "coupling/launcher/run_folder.hpp"
+#include "coupling/launcher/stage_costs.hpp"
 #include "coupling/launcher/text_format.hpp"
 #include "coupling/output/atomic_file.hpp"
 
@@ -165,12 +166,14 @@ int cost_verb(const CostOptions& options) {
     const std::string title = fmt::format("[{}/{}] {} seed {}", i + 1, study.runs.size(), planned.level, planned.seed);
     const auto cause = make_run(options, planned, title, folder, runs);
     write_atomically(folder + "/cost.csv", cost_csv(runs));
+    write_atomically(folder + "/stages.csv", stage_csv(runs));
     if (!cause) continue;
     write_state(folder, study, "interrupted");
     std::fprintf(stderr, "standoff: %s; the same command continues the study\n", cause->what.c_str());
     return static_cast<int>(cause->code);
   }
-  std::printf("\n%s\n", cost_table(level_costs(runs, study.levels)).c_str());
+  std::printf("\n%s\n%s\n", cost_table(level_costs(runs, study.levels)).c_str(),
+              stage_table(runs, study.levels).c_str());
   std::fflush(stdout);
   draw(folder);
   write_state(folder, study, "done");

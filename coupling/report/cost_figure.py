@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Error against seconds: cost_figure.py STUDY reads STUDY/cost.csv and writes STUDY/cost.svg and STUDY/cost.html.
+"""Error against seconds: cost_figure.py STUDY reads STUDY/cost.csv, stages.csv, and writes STUDY/cost.svg and cost.html.
 
 Every run is a dot, every level its mean with the spread over seeds; the error of a level is its distance from the finest
-level, with the standard error of that distance.
+level, with the standard error of that distance. Below: where the seconds of each process go, stage by stage.
 """
 import collections
 import csv
@@ -75,6 +75,38 @@ def draw_errors(axes, levels):
     axes.set(xlabel="wall-clock seconds of a run", ylabel=f"distance from level {names[-1]}, %", xscale="log")
 
 
+def read_stages(path, levels):
+    """Mean seconds of {(level, process): {stage: seconds}}, in the order of `levels`; empty without the file."""
+    if not path.exists():
+        return {}
+    sums = {(level, process): collections.Counter() for level in levels for process in ("particle", "structure")}
+    with open(path, newline="") as file:
+        for row in csv.DictReader(file):
+            if (row["level"], row["process"]) in sums:
+                sums[row["level"], row["process"]][row["stage"]] += float(row["seconds"]) / len(levels[row["level"]])
+    return {bar: stages for bar, stages in sums.items() if stages}
+
+
+def draw_stages(axes, bars):
+    """A bar per process and level, 100 % its seconds; stages above 4 % somewhere by name, the rest as `others`."""
+    share = {bar: {stage: 100 * s / sum(stages.values()) for stage, s in stages.items()} for bar, stages in bars.items()}
+    names = sorted({n for stages in share.values() for n, s in stages.items() if s > 4} - {"wait"},
+                   key=lambda n: -sum(stages.get(n, 0) for stages in share.values()))
+    palette = dict(zip(names, matplotlib.colormaps["tab20"].colors)) | {"others": "#bbbbbb", "wait": "#eeeeee"}
+    labels = [f"{level or 'case'}, {process}" for level, process in bars]
+    left = [0.0] * len(bars)
+    for name in [*names, "others", "wait"]:
+        widths = [stages.get(name, 0.0) if name != "others" else sum(s for n, s in stages.items() if n not in palette)
+                  for stages in share.values()]
+        axes.barh(labels, widths, left=left, color=palette[name], label=name)
+        left = [a + b for a, b in zip(left, widths)]
+    for y, stages in enumerate(bars.values()):
+        axes.text(101, y, f"{sum(stages.values()):.0f} s", va="center", fontsize=8)
+    axes.invert_yaxis()
+    axes.set(xlabel="share of the seconds of the process, %", xlim=(0, 112))
+    axes.legend(frameon=False, fontsize=8, ncols=1, loc="center left", bbox_to_anchor=(1.0, 0.5))
+
+
 def table_html(levels):
     head = "<tr><th>level</th><th>runs</th>" + "".join(f"<th>{html.escape(label)}</th>" for _, label, _ in QUANTITIES) + "<th>seconds</th></tr>"
     rows = ""
@@ -94,19 +126,23 @@ def main():
     levels = read_runs(study / "cost.csv")
     if not levels:
         sys.exit("cost_figure: no successful run in cost.csv")
-    figure, axes = plt.subplots(2, 2, figsize=(10, 7), layout="constrained")
-    for panel, (key, label, factor) in zip(axes.flat, QUANTITIES):
+    bars = read_stages(study / "stages.csv", levels)
+    rows = [["permanent", "peak"], ["impulse", "error"], *([["stages", "stages"]] if bars else [])]
+    figure, axes = plt.subplot_mosaic(rows, figsize=(10, 10 if bars else 7), layout="constrained")
+    for panel, (key, label, factor) in zip(("permanent", "peak", "impulse"), QUANTITIES):
         if any(not math.isnan(run[key]) for runs in levels.values() for run in runs):
-            draw_values(panel, levels, key, label, factor)
+            draw_values(axes[panel], levels, key, label, factor)
         else:
-            panel.set_axis_off()
+            axes[panel].set_axis_off()
     if len(levels) > 1:
-        draw_errors(axes[1, 1], levels)
-        axes[1, 1].legend(frameon=False, fontsize=8)
+        draw_errors(axes["error"], levels)
+        axes["error"].legend(frameon=False, fontsize=8)
     else:
-        axes[1, 1].set_axis_off()
-    axes[1, 0].legend(frameon=False, fontsize=8, title="level (runs)")
-    for panel in axes.flat:
+        axes["error"].set_axis_off()
+    axes["impulse"].legend(frameon=False, fontsize=8, title="level (runs)")
+    if bars:
+        draw_stages(axes["stages"], bars)
+    for panel in axes.values():
         panel.spines[["top", "right"]].set_visible(False)
     figure.suptitle(f"{study.resolve().parent.name}: what accuracy costs", fontsize=11)
     figure.savefig(study / "cost.svg")

@@ -71,6 +71,7 @@ TEST_F(LauncherSuccess, Study_RunsLevelsAndSeedsAndReusesThem) {
   ASSERT_EQ(run({"cost", "case.toml", "--seeds", "2", "--out", "study"}), 0) << errors();
   const std::string table = read_file(root_ / "study/cost.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3) << table;
+  EXPECT_TRUE(read_file(root_ / "study/stages.csv").starts_with("level,seed,process,stage,seconds\n"));
   const auto written = files::last_write_time(root_ / "study/coarse-seed-1-1/run.json");
   ASSERT_EQ(run({"cost", "case.toml", "--seeds", "3", "--out", "study"}), 0) << errors();
   EXPECT_EQ(files::last_write_time(root_ / "study/coarse-seed-1-1/run.json"), written);

@@ -35,7 +35,7 @@ BOOKS = [("energy_error_particles", "energy of the particles, largest error of i
          ("interface_work_error", "work across the interface, difference of external work", "{:.2%}"),
          ("momentum_error", "momentum of everything, error of the sum of impulses", "{:.0e}")]
 COLUMNS = [("permanent_centre_deflection_m", "permanent centre mm", 1e3, 2), ("permanent_max_deflection_m", "profile max mm", 1e3, 2),
-           ("peak_centre_deflection_m", "peak centre mm", 1e3, 2), ("impulse_Ns", "impulse N s", 1, 1), ("wall_s", "seconds", 1, 0)]
+           ("peak_centre_deflection_m", "peak centre mm", 1e3, 2), ("impulse_Ns", "impulse N s", 1, 1), ("wall_s", "seconds", 1, 0), ("cpu_s", "CPU s", 1, 0)]
 
 
 def unit_of(name):
@@ -141,27 +141,28 @@ def study(copy):
 
 
 def spread(runs, column, factor, decimals):
-    values = [float(run[column]) * factor for run in runs if run[column]]
+    values = [float(run[column]) * factor for run in runs if run.get(column)]
     deviation = f" ± {statistics.stdev(values):.{decimals}f}" if len(values) > 1 else ""
     return f"{statistics.mean(values):.{decimals}f}{deviation}" if values else ""
 
 
-def cost_row(first, tried):
+def cost_row(first, tried, columns):
     runs = [run for run in tried if run["exit_code"] == "0"]
     counts = " / ".join(f"{int(tried[0][key]):,}" for key in ("charge_particles", "sand_particles", "elements"))
     failed = f" ({len(tried) - len(runs)} failed)" if len(runs) < len(tried) else ""
     worst = max((float(run["energy_error_particles"]) for run in runs), default=float("nan"))
-    return [first, counts, f"{len(runs)}{failed}", *(spread(runs, name, *form) for name, _, *form in COLUMNS), f"{worst:.2%}"]
+    return [first, counts, f"{len(runs)}{failed}", *(spread(runs, name, *form) for name, _, *form in columns), f"{worst:.2%}"]
 
 
 def cost(*copies):
-    rows = [["level", "C-4 / sand / elements", "runs", *(title for _, title, *_ in COLUMNS), "energy error"]]
     studies = [study(copy) for copy in copies]
+    columns = [column for column in COLUMNS if any(column[0] in run for _, runs in studies for run in runs)]
+    rows = [["level", "C-4 / sand / elements", "runs", *(title for _, title, *_ in columns), "energy error"]]
     for copy, (_, runs) in zip(copies, studies):
         name = "" if copy.stem == "cost" else ", " + copy.stem.replace("_", " ")
         for level in dict.fromkeys(run["level"] for run in runs):
-            rows.append(cost_row(level + name, [run for run in runs if run["level"] == level]))
-    places = {name: 3 + i for i, (name, *_) in enumerate(COLUMNS)}
+            rows.append(cost_row(level + name, [run for run in runs if run["level"] == level], columns))
+    places = {name: 3 + i for i, (name, *_) in enumerate(columns)}
     for name, source, value in references(copies[0]):
         if name in places:
             rows.append([source, *[""] * (len(rows[0]) - 1)])

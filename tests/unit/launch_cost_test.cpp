@@ -6,6 +6,7 @@
 
 #include "coupling/launcher/cost_statistics.hpp"
 #include "coupling/launcher/cost_study.hpp"
+#include "coupling/launcher/stage_costs.hpp"
 
 namespace standoff::launch {
 namespace {
@@ -80,7 +81,35 @@ TEST(CostStudy, Budget_TakesLevelsInOrderAndAlwaysTheFirst) {
 
 TEST(CostStatistics, Csv_LeavesUnknownValuesEmpty) {
   const std::string text = cost_csv({run("coarse", 0.5, 2.0)});
-  EXPECT_NE(text.find("coarse,0,0,0,0,0,0.5,,0.5,100,2,,\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("coarse,0,0,0,0,0,0.5,,0.5,100,2,,,\n"), std::string::npos) << text;
+}
+
+CostRun timed(const std::string& level, double pairs, double wait, int exit_code = 0) {
+  CostRun r = run(level, 1.0, 1.0, exit_code);
+  r.stages = {{"particle", "sand_pairs", pairs}, {"particle", "wait", wait}, {"structure", "relax", 2.0}};
+  return r;
+}
+
+TEST(StageCosts, TableOfTwoRuns_HasMeansAndSharesOfTheirProcess) {
+  const std::string text =
+      stage_table({timed("coarse", 2.0, 1.0), timed("coarse", 4.0, 1.0), timed("coarse", 90.0, 0.0, 3)}, {"coarse"});
+  EXPECT_NE(text.find("sand_pairs   3.0 s 75.0 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("1.0 s 25.0 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("2.0 s 100.0 %"), std::string::npos) << text;
+}
+
+TEST(StageCosts, Csv_LeavesFailedRunsOut) {
+  EXPECT_EQ(stage_csv({timed("coarse", 2.0, 1.0), timed("coarse", 90.0, 0.0, 3)}),
+            "level,seed,process,stage,seconds\ncoarse,0,particle,sand_pairs,2\ncoarse,0,particle,wait,1\n"
+            "coarse,0,structure,relax,2\n");
+}
+
+TEST(StageCosts, RecordOfARun_GivesStagesExchangeAndWait) {
+  const auto times = stage_times_of(
+      OrderedJson::parse(R"({"timing": {"particle": {"exchange_s": 0.5, "stages": {"hard_core": 2}, "wait_s": 1}}})"));
+  ASSERT_EQ(times.size(), 3u);
+  EXPECT_EQ(times[0].stage, "hard_core");
+  EXPECT_DOUBLE_EQ(times[0].seconds + times[1].seconds + times[2].seconds, 3.5);
 }
 
 }  // namespace
