@@ -25,6 +25,7 @@ class CaseFolder {
     std::ofstream(path_ / name) << text;
     return *this;
   }
+  std::string path() const { return path_.string(); }
   CaseRead read(const std::string& name = "case.toml", const CaseOverrides& overrides = {}) const {
     CaseRead result = read_case((path_ / name).string(), overrides);
     const std::string prefix = path_.string() + "/";
