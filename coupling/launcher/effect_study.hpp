@@ -28,9 +28,10 @@ struct EffectRuns {
   std::vector<CostRun> runs;  // by seed, the same in all
 };
 
-/// Paired differences from the case as it is.
+/// Paired differences from the case as it is. Processor seconds of all processes together: the clock on the wall also
+/// counts what others do on the machine.
 struct EffectDifference {
-  Spread seconds, permanent, peak, impulse;
+  Spread processor_s, permanent, peak, impulse;
 };
 EffectDifference paired_difference(const std::vector<CostRun>& turned, const std::vector<CostRun>& as_it_is);
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What each effect costs and does: cost_effects_figure.py STUDY reads STUDY/cost-effects.csv, writes cost-effects.svg.
 
-A bar an effect turned round: the change of seconds, of peak deflection and of impulse against the case as it is, in
+A bar an effect turned round: the change of processor time, of peak deflection and of impulse against the case as it is, in
 percent of it, paired by seed; the whisker is the standard error.
 """
 import collections
@@ -19,7 +19,7 @@ try:
 except ImportError:
     sys.exit("cost_effects_figure: matplotlib is missing; install it with: apt-get install python3-matplotlib")
 
-QUANTITIES = [("wall_s", "seconds"), ("peak_centre_deflection_m", "peak deflection"), ("impulse_Ns", "impulse")]
+QUANTITIES = [("cpu_s", "processor time"), ("peak_centre_deflection_m", "peak deflection"), ("impulse_Ns", "impulse")]
 
 
 def read_runs(path):

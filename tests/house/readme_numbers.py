@@ -10,6 +10,7 @@ A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- e
     cell   CELL ...             folders of `standoff cell`: packing of each, then modulus and lateral stress against strain
     faults FAULTS.csv SOAK.csv  the table of faults with how often each was done and how long the longest took
     hard   RESULTS.json         the hard cases: what is known of other codes, what ours does, figures of hard_cases.py --keep
+    effects STUDY/cost-effects.csv   a row per effect turned round: what changes against the case as it is, paired by seed
     cost   STUDY/cost.csv ...   a row per level of each study, with its name: mean and spread over seeds, seconds
 
 RUN, CELL and STUDY are folders runs/CASE/NAME. They are not committed: what a block needs is kept in the folder of the case, run.json,
@@ -171,6 +172,26 @@ def cost(*copies):
                           f"seconds on {'; '.join(sorted({head['cpu'] for head, _ in studies}))}.\n")
 
 
+def effects(copy):
+    """Change of every quantity, with the standard error over the seeds where there are several."""
+    head, runs = study(copy)
+    plain = {run["seed"]: run for run in runs if not run["effect"]}
+    what = [("cpu_s", "CPU s", 1, 1), *(column for column in COLUMNS if column[0] in plain[next(iter(plain))] and column[0] not in ("wall_s", "cpu_s"))]
+
+    def change(turned, column, factor, decimals):
+        pairs = [(float(run[column]), float(plain[run["seed"]][column])) for run in turned if run[column] and plain[run["seed"]][column]]
+        values = [factor * (a - b) for a, b in pairs]
+        error = f" ± {statistics.stdev(values) / len(values) ** 0.5:.{decimals}f}" if len(values) > 1 else ""
+        return f"{statistics.mean(values):+.{decimals}f}{error}" if values else ""
+
+    rows = [["effect turned", "runs", *(title for _, title, *_ in what)]]
+    rows.append(["as it is", str(len(plain)), *(spread(list(plain.values()), name, *form) for name, _, *form in what)])
+    for effect, turned in dict.fromkeys((run["effect"], run["turned"]) for run in runs if run["effect"]):
+        done = [run for run in runs if run["effect"] == effect and run["exit_code"] == "0"]
+        rows.append([f"{effect} {turned}", str(len(done)), *(change(done, name, *form) for name, _, *form in what)])
+    return table(rows) + f"\nChange against the case as it is, same seeds; processor time of all processes on {head['cpu']}.\n"
+
+
 def cell(*copies):
     tests = [json.loads(copy.read_text()) for copy in copies]
     names = [f"k0 {t['stiffness_N_per_m'] / 1e9:g} GN/m, friction {t['friction']:g}, damping {t['damping']:g}" for t in tests]
@@ -219,7 +240,7 @@ def hard(copy):
     return table(rows, texts=3) + "\n" + table(more, texts=4)
 
 
-COMMANDS = {"faults": faults, "result": result, "cell": cell, "cost": cost, "hard": hard}
+COMMANDS = {"faults": faults, "effects": effects, "result": result, "cell": cell, "cost": cost, "hard": hard}
 
 
 def block_text(match):
