@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "coupling/case/effects/registry.hpp"
+#include "coupling/case/particle_bytes.hpp"
 #include "coupling/case/soil_body.hpp"
 #include "coupling/case/structural_models.hpp"
 
@@ -12,9 +13,8 @@ namespace standoff::launch {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double gauss_points = 64.0;                                            // 4 x 4 x 4 in a cubic hexahedron
-constexpr double gas_bytes = 120.0, grain_bytes = 160.0, history_bytes = 160.0;  // a particle with its share of lists
-constexpr double gauss_point_bytes = 200.0;                                      // per Gauss point
+constexpr double gauss_points = 64.0;        // 4 x 4 x 4 in a cubic hexahedron
+constexpr double gauss_point_bytes = 200.0;  // per Gauss point
 
 double cube(double x) {
   return x * x * x;
@@ -175,7 +175,7 @@ void plan_air(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
     sum += p.awake_air / p.copies / pieces;
   }
   p.air_s = p.air_steps * sum * c.air_particle_step;
-  p.particle_bytes += p.awake_air / p.copies * gas_bytes;
+  p.particle_bytes += p.awake_air / p.copies * air_bytes;
 }
 
 /// The side that computes longer gets the cores; in the parallel scheme both compute at the same time.

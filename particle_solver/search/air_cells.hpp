@@ -105,6 +105,10 @@ class AirCells {
 template <class Select>
 void AirCells::sort(std::span<const Vec3> points, Select&& wanted, Listing& out) const {
   out.start.assign(count() + 1, 0);
+  if (out.cell.capacity() < points.size()) {  // no doubling: awake air grows for ever
+    out.cell.reserve(points.size() + points.size() / 16);
+    out.order.reserve(points.size() + points.size() / 16);
+  }
   out.cell.resize(points.size());
   std::uint32_t listed = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -21,7 +21,7 @@ namespace {
 /// Awake air grows for ever; arrays that double would be half empty.
 void make_room_for_one(GasState& gas) {
   if (gas.size() < gas.position.capacity()) return;
-  const std::size_t room = gas.size() + gas.size() / 8 + 256;
+  const std::size_t room = gas.size() + gas.size() / 16 + 256;
   gas.position.reserve(room), gas.velocity.reserve(room), gas.internal_energy.reserve(room);
   gas.plate_rebound.reserve(room), gas.disturbed.reserve(room), gas.id.reserve(room);
 }

@@ -1,6 +1,5 @@
 #include "particle_solver/step/sand_integrate.hpp"
 
-#include <limits>
 #include <numeric>
 
 namespace standoff::particles {
@@ -53,7 +52,6 @@ SandState make_grains(std::vector<Vec3> positions, double radius, double mass) {
   sand.position = std::move(positions);
   const std::size_t count = sand.position.size();
   sand.velocity.resize(count), sand.force.resize(count);
-  sand.plate_rebound.assign(count, std::numeric_limits<double>::quiet_NaN());
   sand.id.resize(count);
   std::iota(sand.id.begin(), sand.id.end(), 0u);
   return sand;

@@ -106,12 +106,13 @@ double SurfaceContact::stored_energy(const SandState& sand, const SurfaceSheet& 
 }
 
 SurfaceContactCounts SurfaceContact::run(SandState& sand, SurfaceSheet& sheet, double h, double sheet_time) {
-  if (sand.plate_rebound.size() != sand.size())
-    sand.plate_rebound.resize(sand.size(), std::numeric_limits<double>::quiet_NaN());
   if (sand.grain_radius.empty())
     find<true>(sand, sheet, sheet_time);
   else
     find<false>(sand, sheet, sheet_time);
+  const bool any = std::any_of(found_.begin(), found_.end(), [](const auto& part) { return !part.empty(); });
+  if (any && sand.plate_rebound.size() != sand.size())
+    sand.plate_rebound.resize(sand.size(), std::numeric_limits<double>::quiet_NaN());
   return options_.spring ? resolve<true>(sand, sheet, h, sheet_time) : resolve<false>(sand, sheet, h, sheet_time);
 }
 

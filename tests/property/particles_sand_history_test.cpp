@@ -67,7 +67,7 @@ TEST(SandHistory, GrainsRemoved_OthersGoOnUntouchedAndTheirEnergyIsBooked) {
   run(all, a, 20), run(some, b, 20);
   const double lost = b.books().friction_loss;
   const auto cut = [](auto& array) { array.erase(array.begin() + 30, array.begin() + 31); };  // the first of a row
-  cut(some.position), cut(some.velocity), cut(some.force), cut(some.id), cut(some.plate_rebound);
+  cut(some.position), cut(some.velocity), cut(some.force), cut(some.id);
   b.forces(some, 0.0);
   EXPECT_GT(b.books().friction_loss, lost) << "the springs of a removed grain are gone: friction loss";
   a.forces(all, 0.0);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "coupling/case/effects/effect.hpp"
+#include "coupling/case/particle_bytes.hpp"
 
 namespace standoff::effects {
 namespace {
@@ -14,7 +15,6 @@ EffectFinding find(const CaseSpec& spec) {
 }
 
 EffectCost cost(const CaseSpec&, const SceneWork& work) {
-  constexpr double air_bytes = 120.0;  // a particle with its share of lists
   return {.bytes = work.air * air_bytes, .seconds = work.air_s};
 }
 

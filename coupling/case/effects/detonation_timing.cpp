@@ -24,7 +24,7 @@ EffectFinding find(const CaseSpec& spec) {
 
 EffectCost cost(const CaseSpec&, const SceneWork& work) {
   // time of release, flag, impulse in store, until the front has passed
-  return {.bytes = work.gas * (sizeof(double) + 1.0 + sizeof(Vec3))};
+  return {.bytes = work.gas * (sizeof(double) + 1.0)};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "coupling/case/effects/effect.hpp"
+#include "coupling/case/particle_bytes.hpp"
 
 namespace standoff::effects {
 namespace {
@@ -14,8 +15,7 @@ EffectFinding find(const CaseSpec& spec) {
 }
 
 EffectCost cost(const CaseSpec&, const SceneWork& work) {
-  constexpr double history_bytes = 160.0;  // of a grain
-  constexpr double history_s = 80e-9;      // s a grain and step, measured on an AMD EPYC core
+  constexpr double history_s = 80e-9;  // s a grain and step, measured on an AMD EPYC core
   return {.bytes = work.grains * history_bytes, .seconds = work.sand_steps * work.grains * history_s};
 }
 
