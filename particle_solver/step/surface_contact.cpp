@@ -34,7 +34,7 @@ void SurfaceContact::find(const SandState& sand, const SurfaceSheet& sheet, doub
       const double radius = EqualRadii ? sand.radius : sand.grain_radius[grain];
       if (sand.position[grain].z > top + radius) continue;
       const SheetPoint where = sheet.closest(sand.position[grain], radius, t);
-      if (where.face >= 0) found.push_back({static_cast<std::uint32_t>(grain), where});
+      if (where.face >= 0) found.push_back({static_cast<std::uint32_t>(grain), where, 0.0});
     }
   }
 }
@@ -54,7 +54,7 @@ void SurfaceContact::impact(const Touch& touch, SandState& sand, SurfaceSheet& s
   sand.plate_rebound[i] = mass * sand.velocity[i].z;
 }
 
-void SurfaceContact::spring(const Touch& touch, SandState& sand, SurfaceSheet& sheet, double h, double t,
+void SurfaceContact::spring(Touch& touch, SandState& sand, SurfaceSheet& sheet, double h, double t,
                             SurfaceContactCounts& counts) const {
   const std::size_t i = touch.grain;
   const double mass = sand.mass_of(i), incoming = -mass * sand.velocity[i].z;
@@ -62,7 +62,8 @@ void SurfaceContact::spring(const Touch& touch, SandState& sand, SurfaceSheet& s
   const Vec3 wall = sheet.velocity_at(touch.where), slip = sand.velocity[i] - wall;
   const Vec3 force = surface_spring_force(options_.soil, overlap, slip, touch.where.normal, mass, h);
   const double elastic_force = options_.soil.stiffness * overlap;
-  counts.elastic_energy += 0.5 * elastic_force * overlap;
+  touch.stored = 0.5 * elastic_force * overlap;
+  counts.elastic_energy += touch.stored;
   if (force == Vec3{}) return;
   const Impact hit = sheet.push(touch.where, force * -h, t);
   sand.velocity[i] += force * (h / mass);
@@ -76,10 +77,10 @@ void SurfaceContact::spring(const Touch& touch, SandState& sand, SurfaceSheet& s
 }
 
 template <bool Spring>
-SurfaceContactCounts SurfaceContact::resolve(SandState& sand, SurfaceSheet& sheet, double h, double t) const {
+SurfaceContactCounts SurfaceContact::resolve(SandState& sand, SurfaceSheet& sheet, double h, double t) {
   SurfaceContactCounts counts;
-  for (const std::vector<Touch>& part : found_)
-    for (const Touch& touch : part) {
+  for (std::vector<Touch>& part : found_)
+    for (Touch& touch : part) {
       const double radius = sand.radius_of(touch.grain);
       counts.penetration_over_radius = std::max(counts.penetration_over_radius, 1.0 - touch.where.gap / radius);
       if constexpr (Spring)
@@ -102,6 +103,15 @@ double SurfaceContact::stored_energy(const SandState& sand, const SurfaceSheet& 
       const double overlap = sand.radius_of(touch.grain) - touch.where.gap;
       sum += 0.5 * options_.soil.stiffness * overlap * overlap;
     }
+  return sum;
+}
+
+double SurfaceContact::stored_in(const std::vector<std::uint32_t>& out) const {
+  double sum = 0.0;
+  if (!out.empty())
+    for (const std::vector<Touch>& part : found_)
+      for (const Touch& touch : part)
+        if (touch.stored > 0.0 && std::binary_search(out.begin(), out.end(), touch.grain)) sum += touch.stored;
   return sum;
 }
 

@@ -50,18 +50,23 @@ class SurfaceContact {
   /// ledger: grains that are pressed into the plate at the start bring that energy with them.
   double stored_energy(const SandState& sand, const SurfaceSheet& sheet);
 
+  /// J in the springs of the grains `out` (ascending) as the last call of run() met them: for grains that are taken
+  /// out.
+  double stored_in(const std::vector<std::uint32_t>& out) const;
+
  private:
   struct Touch {
     std::uint32_t grain;
     SheetPoint where;
+    double stored = 0.0;  // J, half of k overlap^2; 0 with the impulse law
   };
   template <bool EqualRadii>
   void find(const SandState& sand, const SurfaceSheet& sheet, double t);
   void impact(const Touch& touch, SandState& sand, SurfaceSheet& sheet, double t, SurfaceContactCounts& counts) const;
-  void spring(const Touch& touch, SandState& sand, SurfaceSheet& sheet, double h, double t,
+  void spring(Touch& touch, SandState& sand, SurfaceSheet& sheet, double h, double t,
               SurfaceContactCounts& counts) const;
   template <bool Spring>
-  SurfaceContactCounts resolve(SandState& sand, SurfaceSheet& sheet, double h, double t) const;
+  SurfaceContactCounts resolve(SandState& sand, SurfaceSheet& sheet, double h, double t);
 
   SurfaceContactOptions options_;
   std::vector<std::vector<Touch>> found_;  // by thread, together in the order of the grains

@@ -94,9 +94,13 @@ void TimeLoop::compose() {
     });
   }
   // Between the half kick and the drift no force is pending: a grain may leave without its neighbours losing momentum.
-  add(begin_step_, "boundaries",
-      [this, gas, sand](double, double) { boundaries_.run(gas, sand, &scene_.sheet, books_); });
-  if (drop_outgoing_)
+  add(begin_step_, "boundaries", [this, gas, sand](double, double) {
+    const BoundaryChanges& out = boundaries_.run(gas, sand, &scene_.sheet, books_);
+    if (sand == nullptr) return;
+    const double pressed = contact_->stored_in(out.sand);  // on the plate, by the soil's own law
+    totals_.contact_elastic -= pressed, totals_.escaped_contact += pressed;
+  });
+  if (drop_outgoing_)  // what flies past the plate does not touch it
     add(begin_step_, "drop_outgoing", [this](double, double) {
       boundaries_.take_out(scene_.sand, drop_outgoing_->find(scene_.sand, scene_.sheet), books_);
     });
@@ -243,7 +247,7 @@ ParticleEnergy TimeLoop::energy() const {
   }
   const BoundaryTotals& out = boundaries_.totals();
   energy.escaped_gas = out.gas_energy;
-  energy.escaped_sand = out.sand_energy + (pairs_ ? pairs_->books().escaped_elastic : 0.0);
+  energy.escaped_sand = out.sand_energy + totals_.escaped_contact + (pairs_ ? pairs_->books().escaped_elastic : 0.0);
   if (scene_.has_air) energy.escaped_air = books_.escaped_energy - out.gas_energy - out.sand_energy;
   energy.work_to_structure = scene_.sheet.total_work();
   return energy;

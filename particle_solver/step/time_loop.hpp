@@ -37,14 +37,15 @@ struct LoopTotals {
   double incoming = 0.0;                         // kg m/s at first contact with the plate
   double contact_loss = 0.0;                     // J, grains on plate and cover
   double contact_elastic = 0.0;                  // J now, with the soil's own law at the plate
+  double escaped_contact = 0.0;                  // J since the start, in such springs of grains that were taken out
   double max_penetration_over_radius = 0.0;
   long deferred_hits = 0, hard_core_hits = 0;
   double step = 0.0;       // s, the last
   std::string limited_by;  // what limited it
   template <class Archive>
   void archive(Archive& a) {
-    a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, impulse_air, incoming, contact_loss,
-      contact_elastic);
+    a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, impulse_air, incoming, contact_loss, contact_elastic,
+      escaped_contact);
     a(max_penetration_over_radius, deferred_hits, hard_core_hits, step, limited_by);
   }
 };

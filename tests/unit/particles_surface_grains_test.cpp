@@ -103,6 +103,24 @@ TEST(GrainOnTheSoilSpring_Undamped, ReboundsWithItsOwnSpeed) {
   EXPECT_NEAR(impulse, mass * (sand.velocity[0].z + 10.0), 1e-14);
 }
 
+// Law: a spring pressed by d holds k d^2 / 2; that of a grain that is taken out is what leaves with it, no more. Exact.
+TEST(GrainsOnTheSoilSpring_OneTakenOut, ItsSpringIsToldApart) {
+  SurfaceSheet sheet(random_plane(), {});
+  SandState sand = one_grain({0.0, 0.0, 0.9 * radius}, {});
+  sand.position.push_back({0.005, 0.0, 0.8 * radius}), sand.position.push_back({0.01, 0.0, 2.0 * radius});
+  sand.velocity.resize(3), sand.force.resize(3), sand.id = {0, 1, 2};
+  SurfaceContactOptions options;
+  options.spring = true;
+  options.soil = {1e6, 0.0, 0.0};
+  SurfaceContact contact(options);
+  const double all = contact.run(sand, sheet, 1e-8).elastic_energy;
+  const auto spring = [](double share) { return 0.5 * 1e6 * share * share * radius * radius; };
+  EXPECT_NEAR(contact.stored_in({0}), spring(0.1), 1e-12 * all);
+  EXPECT_NEAR(contact.stored_in({1, 2}), spring(0.2), 1e-12 * all);
+  EXPECT_EQ(contact.stored_in({2}), 0.0) << "it hangs above the plate";
+  EXPECT_NEAR(contact.stored_in({0, 1, 2}), all, 1e-14 * all);
+}
+
 TEST(GrainsOnThePlate_WithOneOrThreeThreads, EndWithTheSameBits) {
   CounterRandom random(8, RandomUse::test, 2);
   SandState start = one_grain({}, {});

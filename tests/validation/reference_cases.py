@@ -91,6 +91,11 @@ def judge_repeatability(folder):
     hashes = [run("borvik_2011/dry_150mm", folder / f"hash{i}", *short, "--threads", threads)["provenance"]["state_hash"]
               for i, threads in enumerate(("1", "2", "1"))]
     expect("same state hash for 1 and 2 threads and a repeated run", len(set(hashes)) == 1, " ".join(hashes))
+    # Products in air: the hits of gas_collide, the cells of air_collide and the flights of air_drift run in threads too.
+    short[3] = "run.until=0.1 ms"
+    hashes = [run("borvik_2011/bare_150mm", folder / f"bare_hash{threads}", *short, "--threads", threads)["provenance"]["state_hash"]
+              for threads in ("1", "2")]
+    expect("bare charge in air: same state hash for 1 and 2 threads", len(set(hashes)) == 1, " ".join(hashes))
 
 
 def judge_mistakes(folder):
