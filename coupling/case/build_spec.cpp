@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "coupling/case/derive.hpp"
+#include "coupling/case/structural_models.hpp"
 
 namespace standoff {
 namespace {
@@ -44,6 +45,7 @@ void charge(const Fields& from, ChargeSpec& to) {
   if (!to.present) return;
   from.get("charge.mass", to.mass);
   from.get("charge.radius", to.radius);
+  from.get("charge.length", to.length);
   from.get("charge.detonator", to.detonator);
   from.get("charge.particles", to.particles);
   from.get("charge.explosive.name", to.explosive.name);
@@ -133,6 +135,11 @@ void surroundings(const Fields& from, CaseSpec& to) {
 
 void plate(const Fields& from, PlateSpec& to) {
   from.get("plate.model", to.model);
+  if (to.model == pipe_model) {
+    from.get("plate.pipe.inner_diameter", to.pipe.inner_diameter);
+    from.get("plate.pipe.wall", to.pipe.wall);
+    from.get("plate.pipe.length", to.pipe.length);
+  }
   from.get("plate.size", to.size);
   from.get("plate.elements", to.elements);
   from.get("plate.edges", to.edges);
@@ -156,6 +163,7 @@ void procedure(const Fields& from, CaseSpec& to) {
   from.get("coupling.window", to.coupling.window);
   from.get("observe.interval", to.observe.interval);
   from.get("observe.snapshots", to.observe.snapshots);
+  from.get("observe.probes", to.observe.probes);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ struct ChargeSpec {
   Explosive explosive;
   double mass = 0.0;    // kg, full charge
   double radius = 0.0;  // m; mass and radius are independent inputs
+  double length = 0.0;  // m; > 0: a cylinder about the z axis of this length, else a ball
   Vec3 detonator;       // m, point of ignition in the global frame
   long particles = 0;   // full charge
   friend bool operator==(const ChargeSpec&, const ChargeSpec&) = default;
@@ -108,15 +109,23 @@ struct MaterialSpec {
   friend bool operator==(const MaterialSpec&, const MaterialSpec&) = default;
 };
 
+/// A pipe about the z axis from z = 0 to its length, loaded from inside; see model pipe_hex64.
+struct PipeSpec {
+  double inner_diameter = 0.0, wall = 0.0, length = 0.0;  // m
+  friend bool operator==(const PipeSpec&, const PipeSpec&) = default;
+};
+
 struct PlateSpec {
   std::string model = "plate_hex64";
   MaterialSpec material;
-  Vec3 size;                               // m: width x, width y, thickness
-  std::array<int, 3> elements{10, 10, 1};  // full plate
+  PipeSpec pipe;
+  Vec3 size;                               // m: width x, width y, thickness; of a pipe: its wall unrolled
+  std::array<int, 3> elements{10, 10, 1};  // full plate; of a pipe: round, along, through the wall
   std::string edges = "clamped";           // "clamped" | "pinned" | "free" | "bolted"
   double opening = 0.0;                    // m, side of the square opening of a frame; with "bolted"
   std::string surround = "rigid";          // "rigid" | "open"
   double surround_size = 0.613;            // m, side of the square cover plate
+  bool is_pipe() const { return pipe.inner_diameter > 0.0; }
   friend bool operator==(const PlateSpec&, const PlateSpec&) = default;
 };
 
@@ -138,8 +147,9 @@ struct CouplingSpec {
 };
 
 struct ObserveSpec {
-  double interval = 5e-6;  // s between rows of histories.csv
-  long snapshots = 20;     // frames of the PVD series over the particle phase
+  double interval = 5e-6;      // s between rows of histories.csv
+  long snapshots = 20;         // frames of the PVD series over the particle phase
+  std::vector<double> probes;  // m along a pipe: where the speed of its wall is recorded
   friend bool operator==(const ObserveSpec&, const ObserveSpec&) = default;
 };
 

@@ -52,6 +52,7 @@ class SceneCheck {
     const ChargeSpec& c = spec_.charge;
     const Paths size{"charge.radius", "charge.mass", "charge.explosive.density", "charge.explosive.fill"};
     if (!usable(size)) return;
+    if (c.length > 0.0) return cylinder();
     const double sphere = 4.0 / 3.0 * std::numbers::pi * std::pow(c.radius, 3);
     const double fill = c.explosive.fill * c.mass / c.explosive.density / sphere;
     finding(fill > 0.74, {"charge.radius", "charge.mass", "charge.explosive.fill"},
@@ -98,16 +99,37 @@ class SceneCheck {
         "make the cavity larger or the charge smaller");
   }
 
+  void cylinder() {
+    const ChargeSpec& c = spec_.charge;
+    const double volume = std::numbers::pi * c.radius * c.radius * c.length;
+    const double fill = c.explosive.fill * c.mass / c.explosive.density / volume;
+    finding(fill > 0.74, {"charge.length", "charge.radius", "charge.mass", "charge.explosive.fill"},
+            fmt::format("the gas spheres do not fit into the charge: they would fill {:.2f} of the cylinder", fill),
+            "spheres fill at most 0.74; leave charge.mass out to have it from the density");
+    const Paths bore{"charge.radius", "charge.length", "plate.pipe.inner_diameter", "plate.pipe.length"};
+    if (!spec_.plate.is_pipe() || !usable(bore)) return;
+    const PipeSpec& pipe = spec_.plate.pipe;
+    finding(2.0 * c.radius > pipe.inner_diameter * (1.0 + touching), bore,
+            fmt::format("the charge does not fit into the pipe: radius {} against inner_diameter {}", mm(c.radius),
+                        mm(pipe.inner_diameter)),
+            "the charge fills the pipe with half its inner diameter as radius");
+    const double middle = spec_.run.stand_off, half = 0.5 * c.length;
+    finding(middle - half < -touching || middle + half > pipe.length * (1.0 + touching),
+            {"charge.length", "run.stand_off", "plate.pipe.length"},
+            fmt::format("the charge reaches out of the pipe: from z = {} to {}, the pipe from 0 mm to {}",
+                        mm(middle - half), mm(middle + half), mm(pipe.length)),
+            "leave run.stand_off out to have the charge in the middle of the pipe");
+  }
+
   void detonator() {
     const ChargeSpec& c = spec_.charge;
     const Paths paths{"charge.detonator", "charge.radius", "run.stand_off"};
     if (!usable(paths) || !settings_.word("charge.detonator").empty()) return;
     const Vec3 centre{0.0, 0.0, spec_.run.stand_off};
-    const double distance = norm(c.detonator - centre);
-    finding(
-        distance > c.radius * (1.0 + touching), paths,
-        fmt::format("the detonator is outside the charge: {} from its centre, radius {}", mm(distance), mm(c.radius)),
-        "the charge centre is at (0, 0, stand_off); \"far pole\" and \"centre\" are always right");
+    const double distance = norm(c.detonator - centre), reach = c.length > 0.0 ? 0.5 * c.length : c.radius;
+    finding(distance > reach * (1.0 + touching), paths,
+            fmt::format("the detonator is outside the charge: {} from its centre, radius {}", mm(distance), mm(reach)),
+            "the charge centre is at (0, 0, stand_off); \"far pole\" and \"centre\" are always right");
     finding(spec_.run.quarter_symmetry && (c.detonator.x != 0.0 || c.detonator.y != 0.0),
             {"charge.detonator", "run.symmetry"}, "quarter symmetry needs the detonator on the z axis",
             "run.symmetry = \"none\" computes everything");
@@ -135,6 +157,7 @@ class SceneCheck {
   }
 
   void stand_off() {
+    if (spec_.plate.is_pipe()) return;  // the charge stands in it
     const bool sand = spec_.soil.kind != SoilKind::none;
     const ChargeSpec& c = spec_.charge;
     if (sand && usable(sand_paths())) {
@@ -161,11 +184,12 @@ class SceneCheck {
     const PlateSpec& p = spec_.plate;
     const Paths mesh{"plate.elements", "run.symmetry"};
     if (usable(mesh))
-      finding(spec_.run.quarter_symmetry && (p.elements[0] % 2 != 0 || p.elements[1] % 2 != 0), mesh,
+      finding(!p.is_pipe() && spec_.run.quarter_symmetry && (p.elements[0] % 2 != 0 || p.elements[1] % 2 != 0), mesh,
               fmt::format("quarter symmetry needs even numbers of elements along x and y, not {} and {}", p.elements[0],
                           p.elements[1]),
               "elements are counted over the full plate; the mirror planes cut it in halves");
     held(p);
+    if (p.is_pipe()) pipe();
     const Paths heat{"plate.material.melting_temperature", "plate.material.room_temperature"};
     if (usable(heat))
       finding(p.material.melting_temperature <= p.material.room_temperature, heat,
@@ -192,6 +216,25 @@ class SceneCheck {
     if (usable(rest))
       finding(p.edges == "free" && p.model != "rigid_plate" && spec_.run.settle, rest,
               "a free plate flies on and never comes to rest", "run.settle = false ends the run while it moves");
+  }
+
+  void pipe() {
+    const PlateSpec& p = spec_.plate;
+    const Paths mesh{"plate.elements", "plate.model"};
+    if (usable(mesh))
+      finding(
+          p.elements[0] % 4 != 0, mesh,
+          fmt::format("{} elements round the pipe do not fill four equal quarters", p.elements[0]),
+          "elements are counted round the full pipe, along it and through its wall: make the first a multiple of 4");
+    finding(!spec_.run.quarter_symmetry, {"run.symmetry", "plate.model"}, "a pipe is computed as a quarter",
+            "run.symmetry = \"quarter\"");
+    finding(spec_.soil.kind != SoilKind::none, {"soil.kind", "plate.model"}, "a pipe holds no sand",
+            "soil.kind = \"none\"");
+    const Paths along{"observe.probes", "plate.pipe.length"};
+    if (usable(along))
+      finding(std::ranges::any_of(spec_.observe.probes, [&](double z) { return z > p.pipe.length; }), along,
+              fmt::format("a probe lies beyond the end of the pipe, {}", mm(p.pipe.length)),
+              "probes are places along the axis, from z = 0");
   }
 
   void flow_table(const MaterialSpec& m) {
@@ -222,8 +265,11 @@ class SceneCheck {
       for (const std::string& corner : corners)
         if (const Setting* stated = settings_.find(corner); stated->rank == size->rank && stated->place != size->place)
           return finding(true, {"domain.size"}, "domain is stated twice", "give size, or lower and upper");
-    check_side(0.5 * spec_.plate.size.x, low.x, high.x, "plate", "x", {"domain.lower", "domain.upper", "plate.size"});
-    check_side(0.5 * spec_.plate.size.y, low.y, high.y, "plate", "y", {"domain.lower", "domain.upper", "plate.size"});
+    const bool pipe = spec_.plate.is_pipe();
+    const double half_x = pipe ? spec_.plate.pipe.inner_diameter : 0.5 * spec_.plate.size.x;  // room to expand
+    const double half_y = pipe ? spec_.plate.pipe.inner_diameter : 0.5 * spec_.plate.size.y;
+    check_side(half_x, low.x, high.x, "plate", "x", {"domain.lower", "domain.upper", "plate.size"});
+    check_side(half_y, low.y, high.y, "plate", "y", {"domain.lower", "domain.upper", "plate.size"});
     const Paths behind{"domain.lower", "plate.size"};
     if (usable(behind))
       finding(low.z > -spec_.plate.size.z, behind,
@@ -236,9 +282,11 @@ class SceneCheck {
     }
     const bool in_sand =
         spec_.soil.kind != SoilKind::none && body().beyond_outside({0.0, 0.0, spec_.run.stand_off}) < 0.0;
-    if (spec_.charge.present && !in_sand && usable({"charge.radius", "run.stand_off"}))
-      inside("charge", {0.0, 0.0, spec_.run.stand_off}, Vec3{1.0, 1.0, 1.0} * spec_.charge.radius,
+    if (spec_.charge.present && !in_sand && usable({"charge.radius", "charge.length", "run.stand_off"})) {
+      const double radius = spec_.charge.radius, length = spec_.charge.length;
+      inside("charge", {0.0, 0.0, spec_.run.stand_off}, {radius, radius, length > 0.0 ? 0.5 * length : radius},
              {"charge.radius", "run.stand_off"});
+    }
   }
   /// A body with its centre and half extents lies in the domain.
   void inside(const char* what, const Vec3& centre, const Vec3& half, const Paths& body) {

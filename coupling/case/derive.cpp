@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "coupling/case/presets.hpp"
+#include "coupling/case/structural_models.hpp"
 
 namespace standoff {
 namespace {
@@ -45,6 +46,7 @@ class Completion {
     if (has_soil_) expand("soil", "soil.kind");
     soil_densities();
     follow_effects();
+    pipe_geometry();
     defaults();
     charge_geometry();
     soil_body();
@@ -142,8 +144,29 @@ class Completion {
     return path.starts_with("soil.") || path.starts_with("cell.") || path == "run.seed";
   }
 
+  /// The wall of a pipe unrolled is its plate; nothing surrounds it, and its middle is where a charge stands.
+  void pipe_geometry() {
+    is_pipe_ = s_.word("plate.model") == pipe_model;
+    if (!is_pipe_) return;
+    derive("plate.surround", std::string("open"), "a pipe stands free");
+    derive("plate.edges", std::string("free"), "a pipe stands free");
+    derive("run.settle", false, "a pipe stands free");
+    if (!good({"plate.pipe.inner_diameter", "plate.pipe.wall", "plate.pipe.length"})) return;
+    const double wall = s_.number("plate.pipe.wall"), length = s_.number("plate.pipe.length");
+    s_.forget("plate.size");
+    derive("plate.size", Triple{std::numbers::pi * (s_.number("plate.pipe.inner_diameter") + wall), length, wall},
+           "the wall unrolled");
+    derive("run.stand_off", 0.5 * length, "half the length of the pipe");
+  }
+
   void charge_geometry() {
     if (!has_charge_) return;
+    const bool cylinder = good({"charge.length", "charge.radius", "charge.explosive.density"});
+    if (cylinder && !s_.has("charge.mass"))
+      derive("charge.mass",
+             std::numbers::pi * std::pow(s_.number("charge.radius"), 2) * s_.number("charge.length") *
+                 s_.number("charge.explosive.density"),
+             "cylinder of radius, length and density");
     if (!s_.has("charge.radius") && good({"charge.mass", "charge.explosive.density"})) {
       const double volume = s_.number("charge.mass") / s_.number("charge.explosive.density");
       derive("charge.radius", std::cbrt(0.75 * volume / std::numbers::pi), "sphere of mass and density");
@@ -151,7 +174,8 @@ class Completion {
     const std::string word = s_.word("charge.detonator");
     if (word.empty() || !good({"charge.radius", "run.stand_off"})) return;
     const double stand_off = s_.number("run.stand_off");
-    const double z = word == "centre" ? stand_off : stand_off + s_.number("charge.radius");
+    const double half = good("charge.length") ? 0.5 * s_.number("charge.length") : s_.number("charge.radius");
+    const double z = word == "centre" ? stand_off : stand_off + half;
     Setting at = *s_.find("charge.detonator");
     at.value = Triple{0.0, 0.0, z};
     at.origin += ", \"" + word + "\"";
@@ -195,6 +219,7 @@ class Completion {
     const auto [sand, top] = extent_of_sand();
     double outer = sand;
     if (good("charge.radius")) outer = std::max(outer, s_.number("charge.radius"));
+    if (good("charge.length")) outer = std::max(outer, 0.5 * s_.number("charge.length"));
     half = std::max(half, 4.0 * outer);
     const double stand_off = good("run.stand_off") ? s_.number("run.stand_off") : 0.0;
     const double beyond = std::max(0.8, 4.0 * outer);
@@ -251,6 +276,10 @@ class Completion {
       require_soil();
     }
     if (has_charge_ || has_soil_) require("run.stand_off");
+    if (is_pipe_)
+      for (const char* key : {"inner_diameter", "wall", "length"})
+        require(std::string("plate.pipe.") + key, "model = \"pipe_hex64\" is a pipe");
+    if (is_pipe_ && !s_.has("plate.size")) s_.mark_wrong("plate.size");
     require("plate.size");
     if (s_.word("plate.edges") == "bolted") require("plate.opening", "a frame on both faces has an opening");
     if (s_.is_wrong("plate.material.preset")) return;
@@ -279,7 +308,7 @@ class Completion {
 
   Settings& s_;
   Diagnostics& diagnostics_;
-  bool has_charge_ = false, has_soil_ = false, cell_only_ = false;
+  bool has_charge_ = false, has_soil_ = false, cell_only_ = false, is_pipe_ = false;
 };
 
 }  // namespace

@@ -52,8 +52,6 @@ class Statements {
         read_table_or_preset(path, member);
       else if (const KeyEntry* entry = find_key(path))
         read_value(path, *entry, member.node);
-      else if (path == "observe.probes")
-        diagnostics_.error(member.place, "probes are not available in this version", "leave the key out");
       else
         unknown_key(member, section, keys_of(section));
     }

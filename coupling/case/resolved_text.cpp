@@ -11,6 +11,8 @@ namespace {
 /// Keys that were turned into others, and keys of things the scene does not hold, are not repeated.
 bool is_written(const CaseSpec& spec, const Settings& settings, std::string_view path) {
   if (!settings.has(std::string(path)) || path == "domain.size" || path.ends_with(".preset")) return false;
+  if (path.starts_with("plate.pipe.") && !spec.plate.is_pipe()) return false;
+  if (path == "plate.size" && spec.plate.is_pipe()) return false;  // follows from plate.pipe
   if (path.starts_with("charge.") && !spec.charge.present) return false;
   if (path.starts_with("cell.") && spec.soil.kind == SoilKind::none) return false;
   return !path.starts_with("soil.") || path == "soil.kind" || spec.soil.kind != SoilKind::none;

@@ -31,6 +31,10 @@ constexpr KeyEntry entries[] = {
      "[Borvik 2011, sec. 2]: 150 g"},
     {"charge.radius", KeyKind::quantity, quantity::length, positive, "", "",
      "Radius of the charge sphere; from mass and density if not given. Mass and radius are independent inputs."},
+    {"charge.length", KeyKind::quantity, quantity::length, positive, "", "",
+     "Length of a charge that is a cylinder about the z axis, its centre at the stand-off; a ball if not given. Its "
+     "gas "
+     "spheres lie inside the radius, as in a casing."},
     {"charge.detonator", quantities, quantity::length, any, "far pole|centre", "far pole",
      "Point of ignition: \"far pole\" (the pole of the charge farthest from the plate), \"centre\", or [x, y, z].",
      "[Borvik 2011, sec. 2]"},
@@ -202,6 +206,12 @@ constexpr KeyEntry entries[] = {
      "What surrounds the exposed plate: a rigid wall (the cover plate) or nothing."},
     {"plate.surround_size", KeyKind::quantity, quantity::length, positive, "", "613 mm",
      "Side of the square wall around the plate; what passes behind it is removed and booked.", "[Borvik 2011, sec. 2]"},
+    {"plate.pipe.inner_diameter", KeyKind::quantity, quantity::length, positive, "", "",
+     "Of model pipe_hex64: a pipe about the z axis from z = 0.", "[Borvik 2011, sec. 3.2]: 25.43 mm"},
+    {"plate.pipe.wall", KeyKind::quantity, quantity::length, positive, "", "", "Thickness of the wall of the pipe.",
+     "[Borvik 2011, sec. 3.2]: 2.593 mm"},
+    {"plate.pipe.length", KeyKind::quantity, quantity::length, positive, "", "", "Length of the pipe.",
+     "[Borvik 2011, sec. 3.2]: 300 mm"},
     {"plate.material.preset", choice, quantity::none, any, "al6xn|ofhc_copper", "",
      "Named set of constants that the other keys of the table may change. material = \"al6xn\" is short for it."},
     {"plate.material.name", text, quantity::none, any, "", "custom", "Name shown in reports."},
@@ -274,6 +284,9 @@ constexpr KeyEntry entries[] = {
      "",
      "20",
      "Frames of the ParaView series over the particle phase; 0 writes none."},
+    {"observe.probes", list, quantity::length, not_negative, "", "",
+     "Places along a pipe where radius and radial velocity of the outer wall are written to wall_velocity.csv.",
+     "[Borvik 2011, figs. 8 and 9]"},
 };
 
 constexpr LevelKey keys_of_a_level[] = {{"charge", "charge.particles"},

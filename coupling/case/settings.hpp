@@ -40,6 +40,8 @@ class Settings {
     std::erase_if(wrong_, [&](const std::string& path) { return path.starts_with(section + "."); });
   }
 
+  void forget(const std::string& path) { stated_.erase(path); }
+
   const Setting* find(const std::string& path) const {
     const auto it = stated_.find(path);
     return it == stated_.end() ? nullptr : &it->second;

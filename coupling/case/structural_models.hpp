@@ -32,12 +32,17 @@ inline constexpr StructuralModelEntry structural_models[] = {
      "what an impulse does to a square plate, to a factor, in no time; hardening, rate and heating of the mean strain; "
      "the way to rest",
      "the shape of deflection and load, waves, local strain", 0.0},
+    {"pipe_hex64", "Pipe of cubic hexahedra with 64 nodes, loaded from inside: the cylinder test.",
+     "expansion of the wall at large strain, waves in it; Johnson-Cook hardening, rate, heating and thermal expansion",
+     "fracture of the wall, which ends a test; ends are free and open", 0.0},
     {"material_point", "One point of the plate's material, without load: `standoff run` draws its flow curves.",
      "hardening, rate and temperature as the plate's elements compute them",
      "the plate, the charge and everything else", 0.0}};
 
 /// The one entry that is no surface before a charge: `standoff run` draws curves for it instead.
 inline constexpr std::string_view material_point_model = "material_point";
+/// The one whose shape is plate.pipe instead of plate.size.
+inline constexpr std::string_view pipe_model = "pipe_hex64";
 
 namespace detail {
 constexpr std::size_t joined_size() {

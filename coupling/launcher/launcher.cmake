@@ -18,4 +18,5 @@ add_dependencies(standoff_launcher standoff_build_facts)
 install(FILES ${CMAKE_SOURCE_DIR}/coupling/report/cell_figure.py ${CMAKE_SOURCE_DIR}/coupling/report/cost_figure.py ${CMAKE_SOURCE_DIR}/coupling/report/cost_effects_figure.py
               ${CMAKE_SOURCE_DIR}/coupling/report/flow_figure.py ${CMAKE_SOURCE_DIR}/coupling/report/run_figure.py
               ${CMAKE_SOURCE_DIR}/coupling/report/run_report.py
+              ${CMAKE_SOURCE_DIR}/coupling/report/wall_figure.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/standoff/report)

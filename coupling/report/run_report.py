@@ -12,6 +12,7 @@ import pathlib
 import sys
 
 import run_figure
+import wall_figure
 
 STYLE = """
 body { font: 15px/1.45 sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
@@ -128,9 +129,19 @@ def figure_svg(folder, record):
     history = run_figure.read_columns(folder / "histories.csv")
     if not history:
         return "<p>No figure: histories.csv holds no rows.</p>"
+    return svg_text(folder, lambda: run_figure.make_figure(folder, record, history))
+
+
+def wall_section(folder):
+    if run_figure.plt is None or not (folder / "wall_velocity.csv").exists():
+        return ""
+    return f"<h3>Wall of the pipe</h3>{svg_text(folder / 'wall', lambda: wall_figure.make_figure(folder))}"
+
+
+def svg_text(salt, make):
     # Names inside an SVG must differ between the figures of one page; without dates the page is reproducible.
-    with run_figure.matplotlib.rc_context({"svg.hashsalt": str(folder), "svg.fonttype": "none"}):
-        figure = run_figure.make_figure(folder, record, history)
+    with run_figure.matplotlib.rc_context({"svg.hashsalt": str(salt), "svg.fonttype": "none"}):
+        figure = make()
         buffer = io.StringIO()
         figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
         run_figure.plt.close(figure)
@@ -148,6 +159,7 @@ def run_section(run):
 {reason}{rest_text(record)}
 {results_section([run])}
 {figure_svg(run["folder"], record)}
+{wall_section(run["folder"])}
 <h3>Conservation</h3>{conservation_section(record)}
 <h3>Effects</h3>{effects_section(record)}
 <h3>Counts</h3>{table([[text(k.replace("_", " ")), f"{v:,}"] for k, v in flat(record.get("counts", {}))], (), {1})}

@@ -47,7 +47,7 @@ void ParticleFiles::frame(double time, const GasState& gas, const SandState& san
 }
 
 void ParticleFiles::impulse_map(const SurfaceSheet& sheet, bool quarter) const {
-  if (folder_.empty()) return;
+  if (folder_.empty() || !sheet.is_level()) return;  // a map over x, y is one of a plate
   const std::size_t nodes = sheet.plate_nodes();
   const std::vector<double> area = nodal_area(sheet.mesh(), nodes);
   std::vector<std::vector<double>> rows;

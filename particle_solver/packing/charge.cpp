@@ -18,6 +18,12 @@ namespace {
 constexpr double largest_fill =
     0.45;  // beyond lie freezing (0.494) and packings that do not relax; also tested up to here
 
+/// Fill of what the centres of the spheres leave: a cylinder keeps whole spheres within its radius.
+double packed_fill(const ChargeSpec& charge, double sphere_radius) {
+  const double share = charge.length > 0.0 ? 1.0 - sphere_radius / charge.radius : 1.0;
+  return charge.explosive.fill / (share * share);
+}
+
 void check(const ChargeSpec& charge, int copies, long count) {
   const Explosive& explosive = charge.explosive;
   const auto refuse = [](const std::string& text) { throw Stop(ExitCode::bad_case, text); };
@@ -89,8 +95,14 @@ GasState build_charge(const ChargeSpec& charge, const Vec3& centre, int copies, 
   GasState gas;
   gas.mass = charge.mass / copies / static_cast<double>(count);
   gas.radius = std::cbrt(3.0 * explosive.fill * volume / (4.0 * 3.141592653589793 * static_cast<double>(count)));
+  if (const double fill = packed_fill(charge, gas.radius); !(gas.radius < charge.radius && fill <= largest_fill))
+    throw Stop(
+        ExitCode::bad_case,
+        fmt::format("charge: {} spheres of radius {:.3g} mm within a cylinder of radius {:.3g} mm fill {:.2f} of "
+                    "what is open to them; at most {} packs: raise charge.particles",
+                    charge.particles, 1e3 * gas.radius, 1e3 * charge.radius, fill, largest_fill));
   gas.gamma = explosive.gamma;
-  gas.position = charge_positions({count, charge.radius, gas.radius, copies == 4, seed});
+  gas.position = charge_positions({count, charge.radius, charge.length, gas.radius, copies == 4, seed});
   gas.position.shrink_to_fit();
   for (Vec3& x : gas.position) x += centre;
   gas.id.resize(count);

@@ -3,7 +3,7 @@
 //
 // - number: charge.particles / copies spheres, copies = 4 for the quarter x >= 0, y >= 0, else 1
 // - radius: r = (3 fill V0 / (4 pi N))^(1/3), V0 = mass / density of the explosive: the co-volume is the spheres' size
-// - positions: centres inside the ball of the charge, no two spheres overlap
+// - positions: centres inside the ball or the cylinder of the charge, no two spheres overlap
 // - velocities: Maxwell-Boltzmann in antithetic pairs v, -v of neighbours: no momentum, locally and in the sum
 // - energy: mass E0 / density in all; the translational share is xi = 3 (gamma - 1) / 2 exactly, in the sum
 // - internal: Gamma(zeta/2) distributed, scaled to the exact sum: what the exchange of larsen_borgnakke.hpp keeps

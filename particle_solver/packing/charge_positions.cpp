@@ -20,6 +20,22 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
+/// Radius within which centres lie, m.
+double centre_limit(const ChargePositions& wanted) {
+  return wanted.length > 0.0 ? wanted.radius - wanted.sphere_radius : wanted.radius;
+}
+
+/// The point of the body at u, v, w in [0, 1): equal volumes go to equal volumes.
+Vec3 point_at(const ChargePositions& wanted, double u, double v, double w) {
+  const double angle = two_pi * w;
+  if (wanted.length > 0.0) {
+    const double r = centre_limit(wanted) * std::sqrt(u);
+    return {r * std::cos(angle), r * std::sin(angle), wanted.length * (v - 0.5)};
+  }
+  const double r = centre_limit(wanted) * std::cbrt(u), z = 1.0 - 2.0 * v, across = std::sqrt(1.0 - z * z);
+  return {r * across * std::cos(angle), r * across * std::sin(angle), r * z};
+}
+
 std::vector<Vec3> spread(const ChargePositions& wanted, std::size_t count) {
   constexpr double g = 1.2207440846057594754;  // positive root of g^4 = g + 1
   CounterRandom shift(wanted.seed, RandomUse::gas_position, 0xFFFFFFFFu);
@@ -33,15 +49,17 @@ std::vector<Vec3> spread(const ChargePositions& wanted, std::size_t count) {
       return fraction(s + n * step + jitter * (random.uniform() - 0.5));
     };
     const double u = coordinate(s0, 1.0 / g), v = coordinate(s1, 1.0 / (g * g)), w = coordinate(s2, 1.0 / (g * g * g));
-    const double r = wanted.ball_radius * std::cbrt(u), z = 1.0 - 2.0 * v, across = std::sqrt(1.0 - z * z);
-    centre[i] = {r * across * std::cos(two_pi * w), r * across * std::sin(two_pi * w), r * z};
+    centre[i] = point_at(wanted, u, v, w);
   }
   return centre;
 }
 
 void keep_inside(const ChargePositions& wanted, Vec3& x) {
-  const double distance = norm(x);
-  if (distance > wanted.ball_radius) x *= wanted.ball_radius / distance;
+  const bool cylinder = wanted.length > 0.0;
+  const double limit = centre_limit(wanted), distance = cylinder ? std::hypot(x.x, x.y) : norm(x);
+  const double scale = distance > limit ? limit / distance : 1.0;
+  x.x *= scale, x.y *= scale;
+  x.z = cylinder ? std::clamp(x.z, -0.5 * wanted.length, 0.5 * wanted.length) : x.z * scale;
 }
 
 /// One sweep; returns the smallest distance of two centres before it [m].
@@ -70,7 +88,7 @@ double sweep(const ChargePositions& wanted, GasCellGrid& grid, std::vector<Vec3>
   return std::sqrt(smallest);
 }
 
-std::vector<Vec3> packed_ball(const ChargePositions& wanted, std::size_t count) {
+std::vector<Vec3> packed_body(const ChargePositions& wanted, std::size_t count) {
   std::vector<Vec3> centre = spread(wanted, count), sorted;
   GasCellGrid grid;
   grid.shape(count, 2.0 * wanted.sphere_radius * oversize);
@@ -78,9 +96,9 @@ std::vector<Vec3> packed_ball(const ChargePositions& wanted, std::size_t count) 
     if (sweep(wanted, grid, centre, sorted) >= 2.0 * wanted.sphere_radius * (1.0 + 1e-9)) return sorted;
   throw Stop(
       ExitCode::bad_case,
-      fmt::format("charge: {} spheres of radius {} m still overlap in a ball of radius {} m after {} sweeps; lower "
-                  "the fill fraction",
-                  count, wanted.sphere_radius, wanted.ball_radius, most_sweeps));
+      fmt::format("charge: {} spheres of radius {} m still overlap in a {} of radius {} m after {} sweeps; lower the "
+                  "fill fraction",
+                  count, wanted.sphere_radius, wanted.length > 0.0 ? "cylinder" : "ball", wanted.radius, most_sweeps));
 }
 
 /// The angle about z from which the next right angle holds exactly a quarter of the centres. One exists: as the angle
@@ -99,7 +117,7 @@ double angle_of_fair_quarter(const std::vector<Vec3>& centre) {
   throw Stop(ExitCode::guard, "charge: several centres at one angle leave no fair quarter; choose another run.seed");
 }
 
-/// The quarter x >= 0, y >= 0 of a packed ball, turned so that its share is exact.
+/// The quarter x >= 0, y >= 0 of a packed body, turned so that its share is exact.
 std::vector<Vec3> cut_quarter(const std::vector<Vec3>& ball) {
   const double angle = angle_of_fair_quarter(ball), c = std::cos(angle), s = std::sin(angle);
   std::vector<Vec3> quarter;
@@ -113,8 +131,8 @@ std::vector<Vec3> cut_quarter(const std::vector<Vec3>& ball) {
 }  // namespace
 
 std::vector<Vec3> charge_positions(const ChargePositions& wanted) {
-  if (!wanted.quarter) return packed_ball(wanted, wanted.count);
-  return cut_quarter(packed_ball(wanted, 4 * wanted.count));
+  if (!wanted.quarter) return packed_body(wanted, wanted.count);
+  return cut_quarter(packed_body(wanted, 4 * wanted.count));
 }
 
 }  // namespace standoff::particles

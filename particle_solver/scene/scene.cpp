@@ -65,7 +65,10 @@ double window_limit(const CaseSpec& spec, const Scene& scene) {
   const double sand = scene.has_sand ? scene.sand.mass * static_cast<double>(scene.sand.size()) * spec.copies() : 0.0;
   const double speed = std::sqrt(2.0 * energy / std::max(sand + 0.6 * charge, 1e-12));
   const double momentum = (sand + 0.75 * charge) * speed;
-  const double specific = momentum / (4.0 * std::numbers::pi * spec.run.stand_off * spec.run.stand_off);
+  const double area = spec.charge.length > 0.0  // a cylinder pushes on its casing
+                          ? 2.0 * std::numbers::pi * spec.charge.radius * spec.charge.length
+                          : 4.0 * std::numbers::pi * spec.run.stand_off * spec.run.stand_off;
+  const double specific = momentum / area;
   const double wall_speed = specific / (spec.plate.material.density * spec.plate.size.z);
   return wall_speed > 0.0 ? radius / wall_speed : spec.run.until;
 }

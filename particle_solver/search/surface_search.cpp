@@ -39,14 +39,20 @@ void add_with_images(Vec3& sum, const Vec3& n, bool mirror_x, bool mirror_y) {
 SurfaceSearch::SurfaceSearch(const SurfaceMesh& mesh, SurfaceTopology topology)
     : quads_(mesh.quads), topology_(std::move(topology)), reference_(mesh.position) {
   double shortest = infinity, area = 0.0;
+  Vec3 sum;
   std::size_t counted = 0;
   for (const auto& quad : quads_) {
     std::array<Vec3, 4> x;
     for (std::size_t i = 0; i < 4; ++i) x[i] = reference_[at(quad[i])];
     for (std::size_t i = 0; i < 4; ++i) shortest = std::min(shortest, norm(x[(i + 1) & 3] - x[i]));
     if (std::isinf(mesh.node_mass[at(quad[0])])) continue;  // long ring faces say nothing about a good bin
-    area += 0.5 * norm(cross(x[2] - x[0], x[3] - x[1]));
+    const Vec3 facing = 0.5 * cross(x[2] - x[0], x[3] - x[1]);
+    area += norm(facing), sum += facing;
     ++counted;
+  }
+  if (std::abs(sum.z) < std::max(std::abs(sum.x), std::abs(sum.y))) {
+    const bool along_x = std::abs(sum.x) >= std::abs(sum.y);
+    across_ = along_x ? &Vec3::x : &Vec3::y, first_axis_ = along_x ? &Vec3::y : &Vec3::x, second_axis_ = &Vec3::z;
   }
   smallest_edge_ = shortest;
   bin_size_ = 0.5 * std::sqrt(area / static_cast<double>(counted));
@@ -88,8 +94,8 @@ void SurfaceSearch::lay_bins() {
   double x1 = -infinity, y1 = -infinity;
   x0_ = y0_ = infinity;
   for (const Box& box : box_) {
-    x0_ = std::min(x0_, box.lower.x), y0_ = std::min(y0_, box.lower.y);
-    x1 = std::max(x1, box.upper.x), y1 = std::max(y1, box.upper.y);
+    x0_ = std::min(x0_, box.lower.*first_axis_), y0_ = std::min(y0_, box.lower.*second_axis_);
+    x1 = std::max(x1, box.upper.*first_axis_), y1 = std::max(y1, box.upper.*second_axis_);
   }
   x0_ -= widen_, y0_ -= widen_, x1 += widen_, y1 += widen_;
   while ((x1 - x0_) * (y1 - y0_) > 4e6 * bin_size_ * bin_size_) bin_size_ *= 2.0;
@@ -104,8 +110,8 @@ void SurfaceSearch::fill_bins() {
   const auto each_bin = [&](const Box& box, auto&& visit) {
     const auto column = [&](double x) { return std::clamp(static_cast<int>((x - x0_) / bin_size_), 0, nx_ - 1); };
     const auto row = [&](double y) { return std::clamp(static_cast<int>((y - y0_) / bin_size_), 0, ny_ - 1); };
-    const int i0 = column(box.lower.x - widen_), i1 = column(box.upper.x + widen_);
-    const int j0 = row(box.lower.y - widen_), j1 = row(box.upper.y + widen_);
+    const int i0 = column(box.lower.*first_axis_ - widen_), i1 = column(box.upper.*first_axis_ + widen_);
+    const int j0 = row(box.lower.*second_axis_ - widen_), j1 = row(box.upper.*second_axis_ + widen_);
     for (int j = j0; j <= j1; ++j)
       for (int i = i0; i <= i1; ++i)
         visit(static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i));
@@ -113,7 +119,8 @@ void SurfaceSearch::fill_bins() {
   for (const Box& box : box_)
     each_bin(box, [&](std::size_t b) {
       ++first_[b + 1];
-      bin_low_[b] = std::min(bin_low_[b], box.lower.z), bin_high_[b] = std::max(bin_high_[b], box.upper.z);
+      bin_low_[b] = std::min(bin_low_[b], box.lower.*across_);
+      bin_high_[b] = std::max(bin_high_[b], box.upper.*across_);
     });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   faces_.resize(at(first_.back()));
@@ -130,8 +137,9 @@ std::array<Vec3, 4> SurfaceSearch::corners(const SheetMotion& motion, std::int32
 }
 
 SurfaceSearch::Range SurfaceSearch::bins_within(const Vec3& p, double widen) const {
-  const double inverse = inverse_bin_, ax = (p.x - widen - x0_) * inverse, bx = (p.x + widen - x0_) * inverse;
-  const double ay = (p.y - widen - y0_) * inverse, by = (p.y + widen - y0_) * inverse;
+  const double x = p.*first_axis_, y = p.*second_axis_, inverse = inverse_bin_;
+  const double ax = (x - widen - x0_) * inverse, bx = (x + widen - x0_) * inverse;
+  const double ay = (y - widen - y0_) * inverse, by = (y + widen - y0_) * inverse;
   if (!(bx >= 0.0 && by >= 0.0 && ax < nx_ && ay < ny_)) return {0, 0, 0, 0, true};
   return {static_cast<int>(std::max(ax, 0.0)), static_cast<int>(std::min(bx, nx_ - 1.0)),
           static_cast<int>(std::max(ay, 0.0)), static_cast<int>(std::min(by, ny_ - 1.0)), false};
@@ -179,7 +187,8 @@ SheetFoot SurfaceSearch::closest(const SheetMotion& motion, const Vec3& position
   for (int j = range.y0; j <= range.y1; ++j)
     for (int i = range.x0; i <= range.x1; ++i) {
       const std::size_t b = static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(i);
-      if (position.z - distance - slack > bin_high_[b] || position.z + distance + slack < bin_low_[b]) continue;
+      const double height = position.*across_;
+      if (height - distance - slack > bin_high_[b] || height + distance + slack < bin_low_[b]) continue;
       search_bin(b, motion, position, t, slack, best, distance);
     }
   if (best.face < 0) return best;

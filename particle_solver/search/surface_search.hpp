@@ -1,7 +1,8 @@
 #pragma once
-// Closest point of the moving sheet. Broad phase: bins of half a face over x, y list the faces whose bounding box,
-// widened by a quarter face, touches the bin; one bin answers a short query, O(1). Narrow phase: feet on the listed
-// faces, nearest hull first, so that folds are seen from all their faces and the answer is the globally closest point.
+// Closest point of the moving sheet. Broad phase: bins of half a face over x, y (of a sheet that looks along x or y:
+// over the two other axes) list the faces whose bounding box, widened by a quarter face, touches the bin; one bin
+// answers a short query, O(1). Narrow phase: feet on the listed faces, nearest hull first, so that folds are seen from
+// all their faces and the answer is the globally closest point.
 //
 //   bins        +--+--+--+      boxes and hulls are those of the last rebuild; `slack`, a bound on how far any node has
 //   moved since,
@@ -41,6 +42,8 @@ class SurfaceSearch {
   /// Node motion above which a rebuild pays.
   double margin() const { return 0.1 * smallest_edge_; }
   double smallest_edge() const { return smallest_edge_; }
+  /// The axis across the bins is the one that most of the sheet looks along.
+  bool looks_along_z() const { return across_ == &Vec3::z; }
   double bin_size() const { return bin_size_; }
   /// Node positions of the last rebuild.
   std::span<const Vec3> reference() const { return reference_; }
@@ -83,8 +86,11 @@ class SurfaceSearch {
   std::vector<Vec3> reference_;
   std::vector<Box> box_;                     // by face
   std::vector<Hull> hull_;                   // by face
-  std::vector<double> bin_low_, bin_high_;   // z range of a bin's faces
+  std::vector<double> bin_low_, bin_high_;   // range across of a bin's faces
   std::vector<std::int32_t> first_, faces_;  // CSR: faces of bin b in ascending order
+  double Vec3::*first_axis_ = &Vec3::x;
+  double Vec3::*second_axis_ = &Vec3::y;
+  double Vec3::*across_ = &Vec3::z;
   double smallest_edge_ = 0.0, bin_size_ = 0.0, inverse_bin_ = 0.0, widen_ = 0.0, x0_ = 0.0, y0_ = 0.0;
   int nx_ = 0, ny_ = 0;
 };

@@ -84,6 +84,8 @@ class SurfaceSheet {
   /// Window-averaged nodal forces of the plate's own nodes, and start collecting anew.
   void collect_load(double window, SurfaceLoad& load);
 
+  /// True if the sheet lies across z, as a plate does; a pipe about z does not.
+  bool is_level() const { return search_.looks_along_z(); }
   std::size_t plate_nodes() const;
   std::size_t plate_faces() const { return plate_faces_; }
   Vec3 total_impulse() const;     // N s on the plate's nodes since the start

@@ -52,7 +52,7 @@ Boundaries::Limits Boundaries::limits(const SurfaceSheet* sheet) const {
   Limits limits{options_.lower, options_.upper, infinity, infinity, -infinity, -infinity};
   if (options_.closed) limits.lower = {-infinity, -infinity, -infinity}, limits.upper = {infinity, infinity, infinity};
   if (options_.quarter) limits.lower.x = limits.lower.y = -infinity;
-  if (sheet == nullptr) return limits;
+  if (sheet == nullptr || !sheet->is_level()) return limits;  // a pipe has no rear that gas could get behind
   const std::vector<Vec3>& rest = sheet->mesh().position;
   limits.outline_x = limits.outline_y = 0.0;
   for (const Vec3& x : rest) {

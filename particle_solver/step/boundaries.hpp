@@ -5,8 +5,9 @@
 // Out is a particle that (1) left the domain's box; with a quarter model x = 0 and y = 0 are mirrors, not exits; (2)
 // passed the plane of the plate's edge by one radius outside the sheet's outline, which is how gas gets behind an open
 // plate; or (3) is deeper than one radius below the lowest point of the sheet: it slipped through, which is counted
-// apart because it should not happen. The others keep their order. Momentum and energy of what left go to
-// BoundaryBooks, its last rebound from the plate to the totals here, so that sums over all particles stay complete.
+// apart because it should not happen. Of a pipe only (1) holds. The others keep their order. Momentum and energy of
+// what left go to BoundaryBooks, its last rebound from the plate to the totals here, so that sums over all particles
+// stay complete.
 #include <cstdint>
 #include <vector>
 

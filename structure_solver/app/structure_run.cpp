@@ -53,6 +53,31 @@ class PlateFiles {
   std::optional<PvdSeries> series_;
 };
 
+/// wall_velocity.csv: a row per station at every sample, written at the end.
+class ProbeFile {
+ public:
+  explicit ProbeFile(const std::string& folder) : folder_(folder) {}
+  void sample(double time, const StructuralModel& model) {
+    for (const WallProbe& p : model.probes()) rows_.push_back({time, p.place, p.displacement, p.velocity});
+  }
+  void write() const {
+    if (folder_.empty() || rows_.empty()) return;
+    write_atomically(folder_ + "/wall_velocity.csv",
+                     csv_text({"time_s", "place_m", "displacement_m", "velocity_m_per_s"}, rows_));
+  }
+  template <class Archive>
+  void archive(Archive& a) {
+    std::size_t count = rows_.size();
+    a(count);
+    rows_.resize(count);
+    for (auto& row : rows_) a(row);
+  }
+
+ private:
+  std::string folder_;
+  std::vector<std::vector<double>> rows_;
+};
+
 /// The window this side asks for: a longitudinal wave goes through the thickness and back, so that a hit is answered by
 /// the whole thickness, which is what the surface masses say (mesh/surface_inertia.hpp). Shorter would not be more
 /// accurate.
@@ -102,6 +127,7 @@ RelaxationResult come_to_rest(StructuralModel& model, StructureBooks& books, Par
 void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Participant& link) {
   const std::unique_ptr<StructuralModel> model = make_structural_model(spec, options.threads);
   PlateFiles files(options.out);
+  ProbeFile probes(options.out);
   StructureBooks books(spec);
   SurfaceMotion motion;
 
@@ -111,7 +137,7 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
   link.trace_stages(model->timers());
   link.keep([&](auto& archive) {
     archive_model(archive, *model);
-    archive(books, files, steps, samples, frames);
+    archive(books, files, probes, steps, samples, frames);
   });
   const CouplingClock clock = link.ready({model->stable_step(), window_limit(spec)});
   model->surface_motion(motion);
@@ -121,6 +147,7 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
     const double slack = 0.5 * clock.window;
     if (time + slack >= static_cast<double>(samples) * spec.observe.interval) {
       link.sample(time, books.sample(*model));
+      probes.sample(time, *model);
       samples = static_cast<long>((time + slack) / spec.observe.interval) + 1;
     }
     if (time + slack >= static_cast<double>(frames) * frame_interval) {
@@ -156,6 +183,7 @@ void run_structure(const CaseSpec& spec, const StructureRunOptions& options, Par
     files.frame(model->time() + rest->simulated_time, *model);
   }
   files.profile(*model);
+  probes.write();
   link.finish(books.report(*model, rest ? &*rest : nullptr, steps, link.times()).dump());
 }
 

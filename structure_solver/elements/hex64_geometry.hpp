@@ -3,6 +3,7 @@
 // stresses back. Two kinds with one interface, chosen at compile time:
 //   BoxGeometry     edges along the axes: three numbers for the whole element
 //   CurvedGeometry  any 64 nodes: inverse Jacobian and weight at each Gauss point
+#include "coupling/base/vec3.hpp"
 #include "structure_solver/elements/cubic_basis.hpp"
 #include "structure_solver/elements/hex64_gradient.hpp"
 #include "structure_solver/elements/tensor3.hpp"
@@ -21,6 +22,10 @@ struct BoxGeometry {
 
   static BoxGeometry of_edges(double x, double y, double z) { return {{2.0 / x, 2.0 / y, 2.0 / z}, x * y * z}; }
   double weight(int q) const { return 0.125 * volume * hex_weight(q); }
+  /// dxi_d / dX at point q, 1/m.
+  Vec3 direction(int, int d) const {
+    return {d == 0 ? scale[0] : 0.0, d == 1 ? scale[1] : 0.0, d == 2 ? scale[2] : 0.0};
+  }
   template <class T>
   Mat3<T> reference_gradient(int, const Mat3<T>& parametric) const {
     Mat3<T> h;
@@ -61,6 +66,12 @@ struct CurvedGeometry {
     return g;
   }
   double weight(int q) const { return point_weight[q]; }
+  double volume() const {
+    double sum = 0.0;
+    for (const double w : point_weight) sum += w;
+    return sum;
+  }
+  Vec3 direction(int q, int d) const { return {inverse[q].m[d][0], inverse[q].m[d][1], inverse[q].m[d][2]}; }
   template <class T>
   Mat3<T> reference_gradient(int q, const Mat3<T>& parametric) const {
     Mat3<T> h;

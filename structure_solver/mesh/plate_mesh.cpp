@@ -1,5 +1,7 @@
 #include "structure_solver/mesh/plate_mesh.hpp"
 
+#include <cmath>
+
 #include "coupling/base/stop.hpp"
 
 namespace standoff::structure {
@@ -40,13 +42,44 @@ std::vector<double> axis_weights(double edge, int n) {
 
 }  // namespace
 
+Vec3 PlateMesh::place(const Vec3& flat) const {
+  if (!bent()) return flat;
+  const double radius = bend - 0.5 * options.size.z - flat.z, angle = flat.x / bend;
+  return {radius * std::sin(angle), radius * std::cos(angle), flat.y};
+}
+
+Vec3 PlateMesh::outward(int i) const {
+  if (!bent()) return {0.0, 0.0, -1.0};
+  const Vec3& x = position[static_cast<std::size_t>(i)];
+  const double radius = std::hypot(x.x, x.y);
+  return {x.x / radius, x.y / radius, 0.0};
+}
+
+double PlateMesh::layer_width(int k) const {
+  if (!bent()) return 1.0;
+  const Vec3& x = position[static_cast<std::size_t>(node(0, 0, k))];
+  return std::hypot(x.x, x.y) / bend;
+}
+
+double PlateMesh::angle_to_first(long e) const {
+  return bent() ? static_cast<double>(e % elements[0]) * edge.x / bend : 0.0;
+}
+
+double PlateMesh::element_mass(long e, int local) const {
+  const auto a = static_cast<std::size_t>(local);
+  const int layer = static_cast<int>(e / (static_cast<long>(elements[0]) * elements[1]));
+  return options.density * 0.125 * geometry().volume * lobatto_weight[a & 3] * lobatto_weight[a >> 2 & 3] *
+         lobatto_weight[a >> 4] * layer_width(3 * layer + (local >> 4));
+}
+
 Vec3 PlateMesh::gauss_position(long e, int q) const {
   const int a = static_cast<int>(e) % elements[0], b = static_cast<int>(e) / elements[0] % elements[1];
   const int c = static_cast<int>(e) / (elements[0] * elements[1]);
   auto along = [](double low, double length, int n, int point) {
     return low + length * (n + 0.5 * (1.0 + gauss_point[static_cast<std::size_t>(point)]));
   };
-  return {along(lower.x, edge.x, a, q & 3), along(lower.y, edge.y, b, q >> 2 & 3), along(lower.z, edge.z, c, q >> 4)};
+  return place(
+      {along(lower.x, edge.x, a, q & 3), along(lower.y, edge.y, b, q >> 2 & 3), along(lower.z, edge.z, c, q >> 4)});
 }
 
 PlateMesh make_plate_mesh(const PlateMeshOptions& options) {

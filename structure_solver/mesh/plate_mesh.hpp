@@ -5,6 +5,9 @@
 //   -----------------------> x           element (a, b, c) -> a + nx (b + ny c); its nodes are i = 3 a .. 3 a + 3, ...
 //   |    |    |    |    |                spaced like the Lobatto points inside each element
 //   ----------------------- z = -thickness
+//
+// Bent round (pipe_mesh.hpp) the same grid is a quarter of a pipe: x runs round the wall, y along the axis, z from the
+// outer face to the inner, which is the loaded one.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -34,6 +37,19 @@ struct PlateMesh {
   std::vector<double> mass;         // row-sum lumped, kg
   std::vector<std::uint8_t> fixed;  // FixedComponent bits
   std::vector<Hinge> hinges;
+  double bend = 0.0;  // m, radius of the middle of the wall of a pipe; 0: flat
+
+  bool bent() const { return bend > 0.0; }
+  /// Where a point of the flat grid lies.
+  Vec3 place(const Vec3& flat) const;
+  /// Unit vector away from the loaded side at nodes (i, ., .).
+  Vec3 outward(int i) const;
+  /// Width of the layer of nodes k over that of the middle of the thickness.
+  double layer_width(int k) const;
+  /// Angle about z that carries element e of a pipe onto the first of its layer.
+  double angle_to_first(long e) const;
+  /// Row-sum mass of node `local` of element e, kg.
+  double element_mass(long e, int local) const;
 
   long element_count() const { return static_cast<long>(elements[0]) * elements[1] * elements[2]; }
   std::size_t node_count() const { return position.size(); }

@@ -87,6 +87,7 @@ SurfaceMap::SurfaceMap(const PlateMesh& mesh)
     : surface_(plate_surface(mesh)),
       forward_(forward_rows(mesh)),
       first_face_node_(static_cast<std::size_t>(mesh.node(0, 0, mesh.nodes[2] - 1))) {
+  if (mesh.bent()) to_surface(mesh.position, surface_.position);
   backward_ = transposed(forward_, first_face_node_, mesh.node_count() - first_face_node_);
 }
 

@@ -1,5 +1,6 @@
 #include "coupling/base/stop.hpp"
 #include "coupling/case/near_word.hpp"
+#include "structure_solver/models/pipe_hex64/pipe_hex64.hpp"
 #include "structure_solver/models/plate_hex64/plate_hex64.hpp"
 #include "structure_solver/models/plate_shell/plate_shell.hpp"
 #include "structure_solver/models/rigid_plate/rigid_plate.hpp"
@@ -25,6 +26,10 @@ constexpr Entry registry[] = {
      }},
     {"rigid_plate",
      [](const CaseSpec& spec, int) -> std::unique_ptr<StructuralModel> { return std::make_unique<RigidPlate>(spec); }},
+    {"pipe_hex64",
+     [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
+       return std::make_unique<PipeHex64>(spec, threads);
+     }},
     {"single_dof",
      [](const CaseSpec& spec, int) -> std::unique_ptr<StructuralModel> { return std::make_unique<SingleDof>(spec); }},
 };

@@ -53,6 +53,13 @@ struct ProfilePoint {
   double x = 0.0, deflection = 0.0;  // m, along the centre line y = 0 of the full plate; positive away from the charge
 };
 
+/// What a station of observe.probes sees of the wall.
+struct WallProbe {
+  double place = 0.0;         // m, along the axis
+  double displacement = 0.0;  // m, away from the charge
+  double velocity = 0.0;      // m/s
+};
+
 class StructuralModel {
  public:
   virtual ~StructuralModel() = default;
@@ -76,6 +83,8 @@ class StructuralModel {
   virtual double max_deflection() const = 0;
   virtual std::vector<ProfilePoint> profile() const = 0;
   virtual StructureFrame frame() const = 0;
+  /// The stations of observe.probes, for models that have a wall to observe.
+  virtual std::vector<WallProbe> probes() const { return {}; }
   virtual void add_to(StateHash& hash) const = 0;
   /// All that outlives a step, and back into a model built from the same case: what follows has the same bits.
   virtual void save(StateWriter& writer) const = 0;

@@ -27,8 +27,25 @@ struct BatchSums {
   unsigned sound;  // bit per lane
 };
 
+/// How the elements of a batch lie at rest: boxes, or copies of one curved element, each turned about z by its own
+/// angle. A turned element is computed in the frame of the first, history included: the law of the metal is isotropic.
+struct BatchShape {
+  BoxGeometry box;
+  const CurvedGeometry* curved = nullptr;  // null: boxes
+  Pack4 cosine, sine;                      // of the angle back to the frame of the first
+};
+
+/// Turns the first two components of all nodes by the angle of `cosine`, `sine`.
+inline void turn(const Pack4& cosine, const Pack4& sine, Pack4 (&field)[3][hex_nodes]) {
+  for (int a = 0; a < hex_nodes; ++a) {
+    const Pack4 x = field[0][a], y = field[1][a];
+    field[0][a] = cosine * x - sine * y;
+    field[1][a] = sine * x + cosine * y;
+  }
+}
+
 /// nodes[4 * local + lane] -> displacement u; force[64 * component + local].
-using BatchKernel = BatchSums (*)(const MetalParameters&, const BoxGeometry&, const PointStep&, bool commit,
+using BatchKernel = BatchSums (*)(const MetalParameters&, const BatchShape&, const PointStep&, bool commit,
                                   const Vec3* u, const std::int32_t* nodes, Pack4* history, Pack4* force);
 
 struct KernelChoice {
@@ -36,14 +53,14 @@ struct KernelChoice {
   HistoryLayout layout;
 };
 
-KernelChoice choose_kernel(const MetalEffects& effects);
-KernelChoice elastic_kernel();
+KernelChoice choose_kernel(const MetalEffects& effects, bool curved);
+KernelChoice elastic_kernel(bool curved);
 
 /// One choice per file, so that they compile side by side.
 template <RateLaw Rate>
-KernelChoice choose_kernel_with_rate(const MetalEffects& effects);
-extern template KernelChoice choose_kernel_with_rate<RateLaw::none>(const MetalEffects&);
-extern template KernelChoice choose_kernel_with_rate<RateLaw::power>(const MetalEffects&);
-extern template KernelChoice choose_kernel_with_rate<RateLaw::logarithmic>(const MetalEffects&);
+KernelChoice choose_kernel_with_rate(const MetalEffects& effects, bool curved);
+extern template KernelChoice choose_kernel_with_rate<RateLaw::none>(const MetalEffects&, bool);
+extern template KernelChoice choose_kernel_with_rate<RateLaw::power>(const MetalEffects&, bool);
+extern template KernelChoice choose_kernel_with_rate<RateLaw::logarithmic>(const MetalEffects&, bool);
 
 }  // namespace standoff::structure

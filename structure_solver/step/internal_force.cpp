@@ -1,6 +1,7 @@
 #include "structure_solver/step/internal_force.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace standoff::structure {
 namespace {
@@ -13,25 +14,26 @@ double initial_flow(const MetalParameters& metal, Hardening hardening) {
 
 }  // namespace
 
-KernelChoice choose_kernel(const MetalEffects& effects) {
-  if (!effects.plasticity) return elastic_kernel();
+KernelChoice choose_kernel(const MetalEffects& effects, bool curved) {
+  if (!effects.plasticity) return elastic_kernel(curved);
   switch (effects.rate) {
     case RateLaw::power:
-      return choose_kernel_with_rate<RateLaw::power>(effects);
+      return choose_kernel_with_rate<RateLaw::power>(effects, curved);
     case RateLaw::logarithmic:
-      return choose_kernel_with_rate<RateLaw::logarithmic>(effects);
+      return choose_kernel_with_rate<RateLaw::logarithmic>(effects, curved);
     case RateLaw::none:
       break;
   }
-  return choose_kernel_with_rate<RateLaw::none>(effects);
+  return choose_kernel_with_rate<RateLaw::none>(effects, curved);
 }
 
 InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal, const MetalEffects& effects,
                              int threads)
-    : mesh_(mesh), metal_(metal), geometry_(mesh.geometry()), choice_(choose_kernel(effects)), threads_(threads) {
+    : mesh_(mesh), metal_(metal), choice_(choose_kernel(effects, mesh.bent())), threads_(threads) {
   const long elements = mesh.element_count(), count = (elements + 3) / 4;
   nodes_.resize(static_cast<std::size_t>(count));
   sums_.resize(nodes_.size());
+  shape_batches();
   buffer_.resize(nodes_.size() * 3 * hex_nodes);
   node_begin_.assign(mesh.node_count() + 1, 0);
   for (long e = 0; e < 4 * count; ++e)
@@ -58,12 +60,36 @@ InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal
   }
 }
 
+/// Elements of a pipe are copies of the first of their layer of the wall, each turned by the angle of its column.
+void InternalForce::shape_batches() {
+  const BoxGeometry box = mesh_.geometry();
+  shapes_.assign(nodes_.size(), BatchShape{box, nullptr, Pack4(1.0), Pack4(0.0)});
+  if (!mesh_.bent()) return;
+  const long layer = static_cast<long>(mesh_.elements[0]) * mesh_.elements[1];
+  for (long e = 0; e < mesh_.element_count(); e += layer) {
+    double x[3][hex_nodes];
+    for (int a = 0; a < hex_nodes; ++a) {
+      const Vec3& at = mesh_.position[static_cast<std::size_t>(mesh_.element_node(e, a))];
+      x[0][a] = at.x, x[1][a] = at.y, x[2][a] = at.z;
+    }
+    curved_.push_back(CurvedGeometry::of_nodes(x));
+  }
+  for (std::size_t b = 0; b < shapes_.size(); ++b) {
+    const long first = 4 * static_cast<long>(b);
+    shapes_[b].curved = &curved_[static_cast<std::size_t>(first / layer)];
+    for (int i = 0; i < 4; ++i) {
+      const double angle = mesh_.angle_to_first(std::min(first + i, mesh_.element_count() - 1));
+      set_lane(shapes_[b].cosine, i, std::cos(angle)), set_lane(shapes_[b].sine, i, std::sin(angle));
+    }
+  }
+}
+
 ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step, bool commit) {
   const auto history_stride = hex_points * static_cast<std::size_t>(choice_.layout.fields);
   const auto count = nodes_.size();
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t b = 0; b < count; ++b)
-    sums_[b] = choice_.kernel(metal_, geometry_, step, commit, u.data(), nodes_[b].data(),
+    sums_[b] = choice_.kernel(metal_, shapes_[b], step, commit, u.data(), nodes_[b].data(),
                               history_.data() + b * history_stride, &buffer_[b * 3 * hex_nodes]);
   ForceSums total;
   const long elements = mesh_.element_count();
@@ -97,7 +123,7 @@ void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::
   auto force_at = [&](std::size_t node, double Vec3::*component, double shift, std::vector<Pack4>& f) {
     const auto saved = local;
     for (std::size_t i = 0; i < 4; ++i) local[4 * node + i].*component += shift;
-    choice_.kernel(metal_, geometry_, {0.0, false}, false, local.data(), own.data(), history, f.data());
+    choice_.kernel(metal_, shapes_[b], {0.0, false}, false, local.data(), own.data(), history, f.data());
     local = saved;
   };
   double Vec3::*const components[3] = {&Vec3::x, &Vec3::y, &Vec3::z};
@@ -115,35 +141,45 @@ void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::
       for (std::size_t j = 0; j < i; ++j) k[192 * i + j] = k[192 * j + i] = 0.5 * (k[192 * i + j] + k[192 * j + i]);
 }
 
+/// How much faster waves cross the deformed elements of a batch than those at rest, squared, at the worst point:
+/// sum_d |F^-T g_d|^2 / sum_d |g_d|^2 with the parametric directions g_d = dxi_d / dX.
+template <class Geometry>
+double InternalForce::worst_shape(const Geometry& geometry, std::size_t batch, std::span<const Vec3> u) const {
+  Pack4 nodal[3][hex_nodes], gradient[3][3][hex_points];
+  for (std::size_t a = 0; a < hex_nodes; ++a)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3& v = u[static_cast<std::size_t>(nodes_[batch][4 * a + i])];
+      set_lane(nodal[0][a], static_cast<int>(i), v.x), set_lane(nodal[1][a], static_cast<int>(i), v.y);
+      set_lane(nodal[2][a], static_cast<int>(i), v.z);
+    }
+  if (mesh_.bent()) turn(shapes_[batch].cosine, shapes_[batch].sine, nodal);
+  for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+  Pack4 worst(1.0);
+  for (int q = 0; q < hex_points; ++q) {
+    const Mat3<Pack4> f = deformation_gradient(geometry.reference_gradient(q, load_gradient(gradient, q)));
+    const Mat3<Pack4> c = cofactor(f);
+    const Pack4 j = rows(f, 0, c, 0);
+    Pack4 sum(0.0);
+    double rest = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      const Vec3 g = geometry.direction(q, d);
+      rest += squared_norm(g);
+      for (int i = 0; i < 3; ++i) {
+        const Pack4 along = c.m[i][0] * Pack4(g.x) + c.m[i][1] * Pack4(g.y) + c.m[i][2] * Pack4(g.z);
+        sum += along * along;
+      }
+    }
+    worst = larger(worst, sum / (j * j * Pack4(rest)));
+  }
+  return std::max({lane(worst, 0), lane(worst, 1), lane(worst, 2), lane(worst, 3)});
+}
+
 double InternalForce::shape_factor(std::span<const Vec3> u) const {
-  const double s0 = geometry_.scale[0], s1 = geometry_.scale[1], s2 = geometry_.scale[2];
-  const double flat = s0 * s0 + s1 * s1 + s2 * s2;
   std::vector<double> largest(nodes_.size());
 #pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t b = 0; b < nodes_.size(); ++b) {
-    Pack4 nodal[3][hex_nodes], gradient[3][3][hex_points];
-    for (std::size_t a = 0; a < hex_nodes; ++a)
-      for (std::size_t i = 0; i < 4; ++i) {
-        const Vec3& v = u[static_cast<std::size_t>(nodes_[b][4 * a + i])];
-        set_lane(nodal[0][a], static_cast<int>(i), v.x), set_lane(nodal[1][a], static_cast<int>(i), v.y);
-        set_lane(nodal[2][a], static_cast<int>(i), v.z);
-      }
-    for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
-    Pack4 worst(flat);
-    for (int q = 0; q < hex_points; ++q) {
-      const Mat3<Pack4> f = deformation_gradient(geometry_.reference_gradient(q, load_gradient(gradient, q)));
-      const Mat3<Pack4> c = cofactor(f);
-      const Pack4 j = rows(f, 0, c, 0);
-      Pack4 sum(0.0);
-      for (int d = 0; d < 3; ++d) {
-        const Pack4 s(geometry_.scale[d]);
-        sum += (c.m[0][d] * c.m[0][d] + c.m[1][d] * c.m[1][d] + c.m[2][d] * c.m[2][d]) * s * s;
-      }
-      worst = larger(worst, sum / (j * j));
-    }
-    largest[b] = std::max({lane(worst, 0), lane(worst, 1), lane(worst, 2), lane(worst, 3)});
-  }
-  return std::sqrt(flat / std::max(flat, *std::max_element(largest.begin(), largest.end())));
+  for (std::size_t b = 0; b < nodes_.size(); ++b)
+    largest[b] = mesh_.bent() ? worst_shape(*shapes_[b].curved, b, u) : worst_shape(shapes_[b].box, b, u);
+  return std::sqrt(1.0 / *std::max_element(largest.begin(), largest.end()));
 }
 
 }  // namespace standoff::structure

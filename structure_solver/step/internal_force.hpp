@@ -50,6 +50,8 @@ class InternalForce {
     return choice_.layout.temperature < 0 ? metal_.flow.room_temperature
                                           : history(element, point, choice_.layout.temperature);
   }
+  /// The shape at rest of element e.
+  const BatchShape& shape(long e) const { return shapes_[static_cast<std::size_t>(e / 4)]; }
   const HistoryLayout& layout() const { return choice_.layout; }
   const MetalParameters& metal() const { return metal_; }
   std::size_t history_bytes() const { return history_.size() * sizeof(Pack4); }
@@ -68,9 +70,14 @@ class InternalForce {
 
  private:
   static constexpr std::ptrdiff_t component_stride = 64 * 4;
+  void shape_batches();
+  template <class Geometry>
+  double worst_shape(const Geometry& geometry, std::size_t batch, std::span<const Vec3> u) const;
+
   const PlateMesh& mesh_;
   MetalParameters metal_;
-  BoxGeometry geometry_;
+  std::vector<CurvedGeometry> curved_;  // of a pipe, one a layer of its wall
+  std::vector<BatchShape> shapes_;      // per batch
   KernelChoice choice_;
   int threads_;
   std::vector<std::array<std::int32_t, 256>> nodes_;  // [batch][4 local + lane]

@@ -38,7 +38,7 @@ TEST_P(StructureModelRestore, StateOfAnotherMesh_IsRefused) {
   const auto model = make_structural_model(model_case(GetParam()), 1);
   if (model->elements() == 0) GTEST_SKIP() << "has no mesh";
   CaseSpec other = model_case(GetParam());
-  other.plate.elements = {6, 6, 1};
+  other.plate.elements = {8, 6, 1};
   const std::string state = saved(*make_structural_model(other, 1));
   StateReader reader(state);
   EXPECT_THROW(model->restore(reader), Stop);

@@ -10,12 +10,37 @@
 
 namespace standoff::structure::testing {
 
+/// A plate; for a pipe the same metal, wall and quarter of the mass rolled up, 16 elements round it.
 inline CaseSpec model_case(const std::string& name, bool quarter = true, const char* edges = "clamped") {
   CaseSpec spec = plate_case(4, quarter);
+  if (name == "pipe_hex64") {
+    spec.plate.pipe = {0.406 / M_PI - 0.0034, 0.0034, 0.406};
+    spec.plate.elements = {16, 4, 1};
+  }
   spec.plate.model = name;
   spec.plate.edges = edges;
   spec.run.until = 1e-3;
   return spec;
+}
+
+/// The quarter, and the whole for models that can be whole.
+inline std::vector<bool> symmetries(const std::string& name) {
+  return name == "pipe_hex64" ? std::vector<bool>{true} : std::vector<bool>{true, false};
+}
+
+/// The area of the loaded face of the simulated part; a pipe shows 12 flat quads round its quarter.
+inline double loaded_area(const CaseSpec& spec) {
+  const PipeSpec& pipe = spec.plate.pipe;
+  const int round = 3 * spec.plate.elements[0];
+  const double whole = spec.plate.is_pipe() ? round * pipe.inner_diameter * std::sin(M_PI / round) * pipe.length
+                                            : spec.plate.size.x * spec.plate.size.y;
+  return whole / spec.copies();
+}
+
+/// Unit vector towards the charge from a point of the loaded face.
+inline Vec3 inwards(const CaseSpec& spec, const Vec3& x) {
+  const double radius = std::hypot(x.x, x.y);
+  return spec.plate.is_pipe() ? Vec3{-x.x / radius, -x.y / radius, 0.0} : Vec3{0.0, 0.0, 1.0};
 }
 
 /// The area that belongs to each surface node, as a vector along the normal of the loaded side: a quarter of each quad.

@@ -10,6 +10,7 @@ A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- e
     cell   CELL ...             folders of `standoff cell`: packing of each, then modulus and lateral stress against strain
     faults FAULTS.csv SOAK.csv  the table of faults with how often each was done and how long the longest took
     hard   RESULTS.json         the hard cases: what is known of other codes, what ours does, figures of hard_cases.py --keep
+    wall   RUN ...              cylinder tests: velocity of the wall when it has gone so far, a row per station and run
     effects STUDY/cost-effects.csv   a row per effect turned round: what changes against the case as it is, paired by seed
     cost   STUDY/cost.csv ...   a row per level of each study, with its name: mean and spread over seeds, seconds
 
@@ -27,6 +28,11 @@ import sys
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "coupling/report"))
+import wall_figure  # noqa: E402
+
+WAYS = wall_figure.WAYS
 BLOCK = re.compile(r"^(<!-- numbers: (\S+) ([^\n]+) -->\n)(.*?)(<!-- end -->)", re.S | re.M)
 # A name ends in its unit: factor and text of the unit shown, decimals.
 UNITS = {"_Ns": (1, " N s", 1), "_per_s": (1, " 1/s", 0), "_m": (1e3, " mm", 2), "_K": (1, " K", 1), "_s": (1e6, " us", 1)}
@@ -87,6 +93,15 @@ def changed_values(run_folder):
     return re.findall(r"^(\w+ = \S.*?) +# --set$", (run_folder / "case.resolved.toml").read_text(), re.M)
 
 
+def kept_of_wall(folder):
+    pipe, stations = wall_figure.read_pipe(folder), wall_figure.read_stations(folder)
+    digits = lambda v: None if v is None else float(f"{v:.6g}")
+    return {"stations": [{"from_lit_end_m": digits(pipe["length"] - place),
+                          "velocity_m_per_s": [digits(wall_figure.velocity_at(rows, way)) for way in WAYS]}
+                         for place, rows in sorted(stations.items(), reverse=True)],
+            "jwl_m_per_s": [digits(wall_figure.jwl_velocity(pipe, way)) for way in WAYS]}
+
+
 def kept_of_run(folder):
     record = read_record(folder)
     if record["status"] != "done":
@@ -94,7 +109,9 @@ def kept_of_run(folder):
     kept = {key: record[key] for key in ("case", "level", "seed", "structure_model", "results", "counts")}
     kept["set"] = changed_values(folder)
     kept["conservation"] = {key: record["conservation"][key] for key, _, _ in BOOKS}
-    kept["relaxation"] = {key: record["relaxation"][key] for key in ("at_rest", "kinetic_ratio", "residual_N", "drift_m_per_period")}
+    kept["relaxation"] = {key: record.get("relaxation", {}).get(key) for key in ("at_rest", "kinetic_ratio", "residual_N", "drift_m_per_period")}
+    if (folder / "wall_velocity.csv").exists():
+        kept["wall"] = kept_of_wall(folder)
     kept["wall_s"] = record["timing"]["wall_s"]
     kept["provenance"] = {key: record["provenance"][key] for key in ("version", "git", "cpu", "threads", "case_hash")}
     return json.dumps(kept, indent=1) + "\n"
@@ -240,7 +257,18 @@ def hard(copy):
     return table(rows, texts=3) + "\n" + table(more, texts=4)
 
 
-COMMANDS = {"faults": faults, "effects": effects, "result": result, "cell": cell, "cost": cost, "hard": hard}
+def wall(*copies):
+    rows = [["C-4 particles", "station, mm from the lit end", *(f"km/s at {1e3 * way:g} mm" for way in WAYS), "seconds"]]
+    for copy in copies:
+        run = json.loads(copy.read_text())
+        for station in run["wall"]["stations"]:
+            rows.append([f"{run['counts']['charge_particles']:,}", f"{1e3 * station['from_lit_end_m']:.0f}",
+                         *(f"{1e-3 * v:.2f}" if v else "" for v in station["velocity_m_per_s"]), f"{run['wall_s']:.0f}"])
+    rows.append(["JWL, shared as Gurney does", "", *(f"{1e-3 * v:.2f}" for v in run["wall"]["jwl_m_per_s"]), ""])
+    return table(rows) + f"\nEnergy error of the particles at most {max(json.loads(c.read_text())['conservation']['energy_error_particles'] for c in copies):.2%}.\n"
+
+
+COMMANDS = {"wall": wall, "faults": faults, "effects": effects, "result": result, "cell": cell, "cost": cost, "hard": hard}
 
 
 def block_text(match):

@@ -83,7 +83,6 @@ TEST(Diagnostics, EveryKindOfValue_NamesItsMistake) {
       {"[soil]\nfriction = inf", "friction = inf is not a finite number"},
       {"[effects]\nheatng = \"on\"", "unknown effect \"heatng\"\n  did you mean \"heating\"?"},
       {"[effects]\nheating = true", "heating = true is not a choice here\n  choices: on, off"},
-      {"[observe]\nprobes = []", "probes are not available in this version"},
       {"[run.until]\nx = 1", "until = {...} is a table; a time is needed"},
       {"run = 3", "run = 3 is not a table; write [run]"},
       {"until = \"2 ms\"", "unknown key \"until\" outside of any section\n  \"until\" belongs in [run]"},

@@ -37,10 +37,26 @@ struct CellValues {
 using Nodal = double[3][hex_nodes];
 using Gradients = double[3][3][hex_points];
 
-void gradients_of(const PlateMesh& mesh, const std::vector<Vec3>& field, long e, Gradients& gradient) {
+/// Angle about z into the frame in which an element of a pipe is computed.
+struct Turn {
+  double cosine, sine;
+  Vec3 in(const Vec3& v) const { return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z}; }
+  Sym3<double> back(const Sym3<double>& s) const {
+    const double cc = cosine * cosine, ss = sine * sine, cs = cosine * sine;
+    return {cc * s.xx + 2.0 * cs * s.xy + ss * s.yy,
+            ss * s.xx - 2.0 * cs * s.xy + cc * s.yy,
+            s.zz,
+            cs * (s.yy - s.xx) + (cc - ss) * s.xy,
+            cosine * s.yz - sine * s.zx,
+            cosine * s.zx + sine * s.yz};
+  }
+};
+
+void gradients_of(const PlateMesh& mesh, const std::vector<Vec3>& field, long e, const Turn& turn,
+                  Gradients& gradient) {
   Nodal nodal;
   for (int a = 0; a < hex_nodes; ++a) {
-    const Vec3& v = field[static_cast<std::size_t>(mesh.element_node(e, a))];
+    const Vec3 v = turn.in(field[static_cast<std::size_t>(mesh.element_node(e, a))]);
     nodal[0][a] = v.x, nodal[1][a] = v.y, nodal[2][a] = v.z;
   }
   for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
@@ -86,30 +102,33 @@ double equivalent_rate(const Mat3<double>& h_rate, const Mat3<double>& cofactor_
   return von_mises(rate) / 1.5;
 }
 
-CellValues cell_values(const PlateSolid& plate, long e) {
+template <class Geometry>
+CellValues cell_values(const PlateSolid& plate, long e, const Geometry& geometry, double volume) {
   const PlateMesh& mesh = plate.mesh();
   const InternalForce& forces = plate.forces();
-  const BoxGeometry box = mesh.geometry();
+  const Turn turn{std::cos(mesh.angle_to_first(e)), std::sin(mesh.angle_to_first(e))};
   Gradients moved, moving;
-  gradients_of(mesh, plate.state().u, e, moved);
-  gradients_of(mesh, plate.state().v, e, moving);
+  gradients_of(mesh, plate.state().u, e, turn, moved);
+  gradients_of(mesh, plate.state().v, e, turn, moving);
   CellValues v;
   for (int q = 0; q < hex_points; ++q) {
-    const double share = box.weight(q) / box.volume;
-    const Mat3<double> h = box.reference_gradient(q, load_gradient(moved, q));
+    const double share = geometry.weight(q) / volume;
+    const Mat3<double> h = geometry.reference_gradient(q, load_gradient(moved, q));
     const Mat3<double> f = deformation_gradient(h), c = cofactor(f);
     const double j = rows(f, 0, c, 0), strain = forces.plastic_strain(e, q);
     const Sym3<double> s = cauchy_stress(forces, e, q, h, j);
     v.strain += share * strain, v.max_strain = std::max(v.max_strain, strain);
     v.temperature += share * forces.temperature(e, q);
-    v.strain_rate += share * equivalent_rate(box.reference_gradient(q, load_gradient(moving, q)), c, j);
+    v.strain_rate += share * equivalent_rate(geometry.reference_gradient(q, load_gradient(moving, q)), c, j);
     v.von_mises += share * von_mises(s);
     v.stress.xx += share * s.xx, v.stress.yy += share * s.yy, v.stress.zz += share * s.zz;
     v.stress.xy += share * s.xy, v.stress.yz += share * s.yz, v.stress.zx += share * s.zx;
-    // Height of the deformed element over its reference mid-plane: 1 / |F^-T e_z|.
-    v.thickness +=
-        share * mesh.edge.z * j / std::sqrt(c.m[0][2] * c.m[0][2] + c.m[1][2] * c.m[1][2] + c.m[2][2] * c.m[2][2]);
+    // Height of the deformed element over its reference mid-plane: 2 / |F^-T g|, g = dxi_2 / dX.
+    const Vec3 g = geometry.direction(q, 2);
+    const auto along = [&](int i) { return c.m[i][0] * g.x + c.m[i][1] * g.y + c.m[i][2] * g.z; };
+    v.thickness += share * 2.0 * j / norm(Vec3{along(0), along(1), along(2)});
   }
+  v.stress = turn.back(v.stress);
   return v;
 }
 
@@ -151,7 +170,9 @@ StructureFrame plate_frame(const PlateSolid& plate) {
   for (long e = 0; e < mesh.element_count(); ++e) {
     auto& cell = frame.cells.emplace_back();
     for (const int local : vtk_cubic_order) cell.push_back(mesh.element_node(e, local));
-    values.push_back(cell_values(plate, e));
+    const BatchShape& shape = plate.forces().shape(e);
+    values.push_back(shape.curved != nullptr ? cell_values(plate, e, *shape.curved, shape.curved->volume())
+                                             : cell_values(plate, e, shape.box, shape.box.volume));
   }
   for (const Column& column : columns(plate.forces().layout())) {
     auto& [name, data] = frame.cell_data.emplace_back(column.name, std::vector<double>{});

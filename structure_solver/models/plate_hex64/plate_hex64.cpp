@@ -27,7 +27,10 @@ double PlateHex64::answer_time(const CaseSpec& spec) const {
 }
 
 PlateHex64::PlateHex64(const CaseSpec& spec, int threads)
-    : plate_(spec, threads),
+    : PlateHex64(make_plate_mesh(mesh_options(spec)), spec, threads) {}
+
+PlateHex64::PlateHex64(PlateMesh mesh, const CaseSpec& spec, int threads)
+    : plate_(std::move(mesh), spec, threads),
       map_(plate_.mesh()),
       probes_(plate_.mesh()),
       relaxation_(plate_, probes_),

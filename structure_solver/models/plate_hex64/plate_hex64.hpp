@@ -5,9 +5,11 @@
 
 namespace standoff::structure {
 
-class PlateHex64 final : public StructuralModel {
+class PlateHex64 : public StructuralModel {
  public:
   PlateHex64(const CaseSpec& spec, int threads);
+  /// The same solid on another mesh of the kind, such as a pipe.
+  PlateHex64(PlateMesh mesh, const CaseSpec& spec, int threads);
 
   const SurfaceMesh& surface() const override { return map_.surface(); }
   void surface_motion(SurfaceMotion& motion) const override;

@@ -6,8 +6,9 @@
 namespace standoff::structure {
 
 PlateProbes::PlateProbes(const PlateMesh& mesh) : mesh_(mesh) {
-  centre_x_ = axis_point(0, 0.0);
-  centre_y_ = axis_point(1, 0.0);
+  const Vec3& size = mesh.options.size;
+  centre_x_ = axis_point(0, mesh.bent() ? 0.125 * size.x : 0.0);
+  centre_y_ = axis_point(1, mesh.bent() ? 0.5 * size.y : 0.0);
   middle_ = axis_point(2, -0.5 * mesh.options.size.z);
 }
 
@@ -25,30 +26,38 @@ PlateProbes::AxisPoint PlateProbes::axis_point(std::size_t axis, double coordina
   return {3 * element, lagrange(lobatto_node, 2.0 * (place - element) - 1.0)};
 }
 
+PlateProbes::AxisPoint PlateProbes::at_node(int j) const {
+  AxisPoint y{std::min(j / 3, mesh_.elements[1] - 1) * 3, {}};
+  y.weight[static_cast<std::size_t>(j - y.first)] = 1.0;
+  return y;
+}
+
 double PlateProbes::mid_surface(std::span<const Vec3> u, int i, const AxisPoint& y) const {
   double sum = 0.0;
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j)
-      sum -= middle_.weight[static_cast<std::size_t>(k)] * y.weight[static_cast<std::size_t>(j)] *
-             u[static_cast<std::size_t>(mesh_.node(i, y.first + j, middle_.first + k))].z;
+      sum += middle_.weight[static_cast<std::size_t>(k)] * y.weight[static_cast<std::size_t>(j)] *
+             dot(mesh_.outward(i), u[static_cast<std::size_t>(mesh_.node(i, y.first + j, middle_.first + k))]);
+  return sum;
+}
+
+double PlateProbes::on_line(std::span<const Vec3> u, const AxisPoint& y) const {
+  double sum = 0.0;
+  for (int a = 0; a < 4; ++a) {
+    const double w = centre_x_.weight[static_cast<std::size_t>(a)];
+    if (w != 0.0) sum += w * mid_surface(u, centre_x_.first + a, y);
+  }
   return sum;
 }
 
 double PlateProbes::centre_deflection(std::span<const Vec3> u) const {
-  double sum = 0.0;
-  for (int a = 0; a < 4; ++a) {
-    const double w = centre_x_.weight[static_cast<std::size_t>(a)];
-    if (w != 0.0) sum += w * mid_surface(u, centre_x_.first + a, centre_y_);
-  }
-  return sum;
+  return on_line(u, centre_y_);
 }
 
 double PlateProbes::max_deflection(std::span<const Vec3> u) const {
   double largest = -1e300;
   for (int j = 0; j < mesh_.nodes[1]; ++j) {
-    const int first = std::min(j / 3, mesh_.elements[1] - 1) * 3;
-    AxisPoint y{first, {}};
-    y.weight[static_cast<std::size_t>(j - first)] = 1.0;
+    const AxisPoint y = at_node(j);
     for (int i = 0; i < mesh_.nodes[0]; ++i) largest = std::max(largest, mid_surface(u, i, y));
   }
   return largest;
@@ -56,6 +65,11 @@ double PlateProbes::max_deflection(std::span<const Vec3> u) const {
 
 std::vector<ProfilePoint> PlateProbes::profile(std::span<const Vec3> u) const {
   std::vector<ProfilePoint> points;
+  if (mesh_.bent()) {
+    for (int j = 0; j < mesh_.nodes[1]; ++j)
+      points.push_back({mesh_.position[static_cast<std::size_t>(mesh_.node(0, j, 0))].z, on_line(u, at_node(j))});
+    return points;
+  }
   for (int i = 0; i < mesh_.nodes[0]; ++i)
     points.push_back({mesh_.position[static_cast<std::size_t>(i)].x, mid_surface(u, i, centre_y_)});
   if (!mesh_.options.quarter) return points;
@@ -63,6 +77,10 @@ std::vector<ProfilePoint> PlateProbes::profile(std::span<const Vec3> u) const {
   for (auto p = points.rbegin(); p + 1 != points.rend(); ++p) full.push_back({-p->x, p->deflection});
   full.insert(full.end(), points.begin(), points.end());
   return full;
+}
+
+double PlateProbes::to_centre(const Vec3& x) const {
+  return mesh_.bent() ? std::fabs(x.z - 0.5 * mesh_.options.size.y) : std::hypot(x.x, x.y);
 }
 
 StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
@@ -77,11 +95,12 @@ StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
       x.max_plastic_strain = std::max(x.max_plastic_strain, strain);
       x.max_temperature_rise =
           std::max(x.max_temperature_rise, forces.temperature(e, q) - forces.metal().flow.room_temperature);
-      const double to_edge = std::min(half_x - std::fabs(at.x), half_y - std::fabs(at.y));
+      // A pipe has no clamp: its ends are free.
+      const double to_edge = mesh_.bent() ? 1e300 : std::min(half_x - std::fabs(at.x), half_y - std::fabs(at.y));
       if (to_edge > margin)
         x.max_plastic_strain_away_from_clamp = std::max(x.max_plastic_strain_away_from_clamp, strain);
       // The columns of Gauss points next to the axis speak for the centre: their largest value.
-      const double distance = std::hypot(at.x, at.y);
+      const double distance = to_centre(at);
       if (distance < nearest * (1.0 - 1e-9)) nearest = distance, x.centre_plastic_strain = strain;
       if (distance < nearest * (1.0 + 1e-9)) x.centre_plastic_strain = std::max(x.centre_plastic_strain, strain);
     }

@@ -1,6 +1,7 @@
 #pragma once
 // What is read off a plate: deflections of the mid-surface, the centre line, extremes of the history, frames for
-// ParaView. Deflection is positive away from the charge (against z).
+// ParaView. Deflection is positive away from the charge (against z). Of a pipe: outwards; its centre is half its length
+// along, half way round the quarter, its line runs along the axis there.
 #include "structure_solver/models/plate_hex64/plate_solid.hpp"
 #include "structure_solver/models/structural_model.hpp"
 
@@ -25,7 +26,10 @@ class PlateProbes {
     Line4 weight{};
   };
   AxisPoint axis_point(std::size_t axis, double coordinate) const;
+  AxisPoint at_node(int j) const;
   double mid_surface(std::span<const Vec3> u, int i, const AxisPoint& y) const;
+  double on_line(std::span<const Vec3> u, const AxisPoint& y) const;
+  double to_centre(const Vec3& x) const;
 
   const PlateMesh& mesh_;
   AxisPoint centre_x_, centre_y_, middle_;

@@ -16,7 +16,7 @@ PlateMeshOptions mesh_options(const CaseSpec& spec);
 
 class PlateSolid {
  public:
-  PlateSolid(const CaseSpec& spec, int threads);
+  PlateSolid(PlateMesh mesh, const CaseSpec& spec, int threads);
   PlateSolid(const PlateSolid&) = delete;
   PlateSolid& operator=(const PlateSolid&) = delete;
 
@@ -57,6 +57,7 @@ class PlateSolid {
   /// Back to the shape before the drift of this step: the last one without a broken element, for the last frame.
   void step_back(double dt);
   double rest_step();
+  double rest_step_of(long first);
   void collect_internal_force();
 
   PlateMesh mesh_;
