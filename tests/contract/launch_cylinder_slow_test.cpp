@@ -41,6 +41,7 @@ TEST_F(LauncherCylinder, SmallRun_DrivesTheWallWhereTheFrontHasPassed) {
   EXPECT_LT(books["energy_error_particles"].get<double>(), 1e-3);
   EXPECT_LT(books["energy_error_structure"].get<double>(), 0.02);
   EXPECT_LT(books["momentum_error"].get<double>(), 1e-9);
+  EXPECT_LT(books["interface_work_error"].get<double>(), 0.25) << "where a run would be stopped at its end";
 }
 
 }  // namespace

@@ -96,7 +96,9 @@ def changed_values(run_folder):
 def kept_of_wall(folder):
     pipe, stations = wall_figure.read_pipe(folder), wall_figure.read_stations(folder)
     digits = lambda v: None if v is None else float(f"{v:.6g}")
-    return {"stations": [{"from_lit_end_m": digits(pipe["length"] - place),
+    explosive = tomllib.loads((folder / "case.resolved.toml").read_text())["charge"]["explosive"]
+    return {"explosive": {key: explosive[key] for key in ("name", "fill", "gamma")},
+            "stations": [{"from_lit_end_m": digits(pipe["length"] - place),
                           "velocity_m_per_s": [digits(wall_figure.velocity_at(rows, way)) for way in WAYS]}
                          for place, rows in sorted(stations.items(), reverse=True)],
             "jwl_m_per_s": [digits(wall_figure.jwl_velocity(pipe, way)) for way in WAYS]}
@@ -258,14 +260,16 @@ def hard(copy):
 
 
 def wall(*copies):
-    rows = [["C-4 particles", "station, mm from the lit end", *(f"km/s at {1e3 * way:g} mm" for way in WAYS), "seconds"]]
+    rows = [["explosive", "particles", "station, mm from the lit end", *(f"km/s at {1e3 * way:g} mm" for way in WAYS), "interface", "seconds"]]
     for copy in copies:
         run = json.loads(copy.read_text())
         for station in run["wall"]["stations"]:
-            rows.append([f"{run['counts']['charge_particles']:,}", f"{1e3 * station['from_lit_end_m']:.0f}",
-                         *(f"{1e-3 * v:.2f}" if v else "" for v in station["velocity_m_per_s"]), f"{run['wall_s']:.0f}"])
-    rows.append(["JWL, shared as Gurney does", "", *(f"{1e-3 * v:.2f}" for v in run["wall"]["jwl_m_per_s"]), ""])
-    return table(rows) + f"\nEnergy error of the particles at most {max(json.loads(c.read_text())['conservation']['energy_error_particles'] for c in copies):.2%}.\n"
+            rows.append([f"{run['wall']['explosive']['name']}, fill {run['wall']['explosive']['fill']}",
+                         f"{run['counts']['charge_particles']:,}", f"{1e3 * station['from_lit_end_m']:.0f}",
+                         *(f"{1e-3 * v:.2f}" if v else "" for v in station["velocity_m_per_s"]),
+                         f"{run['conservation']['interface_work_error']:.1%}", f"{run['wall_s']:.0f}"])
+    rows.append(["JWL, shared as Gurney does", "", "", *(f"{1e-3 * v:.2f}" for v in run["wall"]["jwl_m_per_s"]), "", ""])
+    return table(rows) + f"\nInterface: `interface_work_error`. Energy error of the particles at most {max(json.loads(c.read_text())['conservation']['energy_error_particles'] for c in copies):.2%}.\n"
 
 
 COMMANDS = {"wall": wall, "faults": faults, "effects": effects, "result": result, "cell": cell, "cost": cost, "hard": hard}
