@@ -11,7 +11,7 @@ namespace {
 
 CaseSpec sand_case(long charge, long sand, int elements) {
   CaseSpec spec;
-  spec.charge = {true, {"c4", 1601.0, 8.7e9, 1.4, 0.2, 8190.0}, 0.15, 0.0282, {}, charge};
+  spec.charge = {true, {"c4", 1601.0, 8.7e9, 1.4, 0.2, 8190.0}, 0.15, 0.0282, 0.0, {}, charge};
   spec.soil.kind = SoilKind::dry, spec.soil.inner_radius = 0.03, spec.soil.outer_radius = 0.0762;
   spec.soil.packing = 0.6, spec.soil.grain_density = 2700.0, spec.soil.bulk_density = 1620.0;
   spec.soil.stiffness = 0.4e9, spec.soil.friction = 0.3, spec.soil.particles = sand;
