@@ -24,19 +24,21 @@ void check(const PlateMeshOptions& o) {
 }
 
 /// Lobatto coordinates along one axis of n elements.
-std::vector<double> axis_positions(double lower, double edge, int n) {
+std::vector<double> axis_positions(const LineBasis& basis, double lower, double edge, int n) {
   std::vector<double> x;
   for (int e = 0; e < n; ++e)
-    for (std::size_t a = 0; a < 3; ++a) x.push_back(lower + edge * (e + 0.5 * (1.0 + lobatto_node[a])));
+    for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(basis.nodes); ++a)
+      x.push_back(lower + edge * (e + 0.5 * (1.0 + basis.node[a])));
   x.push_back(lower + edge * n);
   return x;
 }
 
 /// Lobatto weights assembled along one axis, sum = length.
-std::vector<double> axis_weights(double edge, int n) {
-  std::vector<double> w(static_cast<std::size_t>(3 * n + 1), 0.0);
+std::vector<double> axis_weights(const LineBasis& basis, double edge, int n) {
+  const auto count = static_cast<std::size_t>(basis.nodes), order = count - 1;
+  std::vector<double> w(order * static_cast<std::size_t>(n) + 1, 0.0);
   for (std::size_t e = 0; e < static_cast<std::size_t>(n); ++e)
-    for (std::size_t a = 0; a < 4; ++a) w[3 * e + a] += 0.5 * edge * lobatto_weight[a];
+    for (std::size_t a = 0; a < count; ++a) w[order * e + a] += 0.5 * edge * basis.weight[a];
   return w;
 }
 
@@ -68,18 +70,22 @@ double PlateMesh::angle_to_first(long e) const {
 double PlateMesh::element_mass(long e, int local) const {
   const auto a = static_cast<std::size_t>(local);
   const int layer = static_cast<int>(e / (static_cast<long>(elements[0]) * elements[1]));
-  return options.density * 0.125 * geometry().volume * lobatto_weight[a & 3] * lobatto_weight[a >> 2 & 3] *
-         lobatto_weight[a >> 4] * layer_width(3 * layer + (local >> 4));
+  const auto n = static_cast<std::size_t>(per_edge());
+  const Line4& weight = basis().weight;
+  return options.density * 0.125 * geometry().volume * weight[a % n] * weight[a / n % n] * weight[a / (n * n)] *
+         layer_width(order() * layer + local / (per_edge() * per_edge()));
 }
 
 Vec3 PlateMesh::gauss_position(long e, int q) const {
   const int a = static_cast<int>(e) % elements[0], b = static_cast<int>(e) / elements[0] % elements[1];
   const int c = static_cast<int>(e) / (elements[0] * elements[1]);
-  auto along = [](double low, double length, int n, int point) {
-    return low + length * (n + 0.5 * (1.0 + gauss_point[static_cast<std::size_t>(point)]));
+  const LineBasis& line = basis();
+  auto along = [&](double low, double length, int n, int point) {
+    return low + length * (n + 0.5 * (1.0 + line.gauss_point[static_cast<std::size_t>(point)]));
   };
+  const int m = per_edge();
   return place(
-      {along(lower.x, edge.x, a, q & 3), along(lower.y, edge.y, b, q >> 2 & 3), along(lower.z, edge.z, c, q >> 4)});
+      {along(lower.x, edge.x, a, q % m), along(lower.y, edge.y, b, q / m % m), along(lower.z, edge.z, c, q / (m * m))});
 }
 
 PlateMesh make_plate_mesh(const PlateMeshOptions& options) {
@@ -94,15 +100,15 @@ PlateMesh make_plate_mesh(const PlateMeshOptions& options) {
     mesh.elements[0] /= 2, mesh.elements[1] /= 2;
     mesh.lower.x = mesh.lower.y = 0.0;
   }
-  for (std::size_t d = 0; d < 3; ++d) mesh.nodes[d] = 3 * mesh.elements[d] + 1;
+  for (std::size_t d = 0; d < 3; ++d) mesh.nodes[d] = mesh.order() * mesh.elements[d] + 1;
 
-  const auto x = axis_positions(mesh.lower.x, mesh.edge.x, mesh.elements[0]);
-  const auto y = axis_positions(mesh.lower.y, mesh.edge.y, mesh.elements[1]);
-  auto z = axis_positions(mesh.lower.z, mesh.edge.z, mesh.elements[2]);
+  const auto x = axis_positions(mesh.basis(), mesh.lower.x, mesh.edge.x, mesh.elements[0]);
+  const auto y = axis_positions(mesh.basis(), mesh.lower.y, mesh.edge.y, mesh.elements[1]);
+  auto z = axis_positions(mesh.basis(), mesh.lower.z, mesh.edge.z, mesh.elements[2]);
   z.back() = 0.0;  // the loaded face, exactly
-  const auto wx = axis_weights(mesh.edge.x, mesh.elements[0]);
-  const auto wy = axis_weights(mesh.edge.y, mesh.elements[1]);
-  const auto wz = axis_weights(mesh.edge.z, mesh.elements[2]);
+  const auto wx = axis_weights(mesh.basis(), mesh.edge.x, mesh.elements[0]);
+  const auto wy = axis_weights(mesh.basis(), mesh.edge.y, mesh.elements[1]);
+  const auto wz = axis_weights(mesh.basis(), mesh.edge.z, mesh.elements[2]);
   for (std::size_t k = 0; k < z.size(); ++k)
     for (std::size_t j = 0; j < y.size(); ++j)
       for (std::size_t i = 0; i < x.size(); ++i) {

@@ -1,8 +1,10 @@
 #pragma once
-// A rectangular plate of cubic 64-node hexahedra on a regular grid, whole or the quarter x >= 0, y >= 0.
+// A rectangular plate of hexahedra with n nodes along an edge (n = 4: cubic, 64 nodes) on a regular grid, whole or the
+// quarter x >= 0, y >= 0.
 //
 //        z ^  loaded face z = 0          node (i, j, k) -> i + ni (j + nj k), i fastest, k = 0 at the rear face
-//   -----------------------> x           element (a, b, c) -> a + nx (b + ny c); its nodes are i = 3 a .. 3 a + 3, ...
+//   -----------------------> x           element (a, b, c) -> a + nx (b + ny c); its nodes are
+//                                      i = (n - 1) a .. (n - 1) (a + 1), ...
 //   |    |    |    |    |                spaced like the Lobatto points inside each element
 //   ----------------------- z = -thickness
 //
@@ -14,7 +16,7 @@
 #include <vector>
 
 #include "coupling/base/vec3.hpp"
-#include "structure_solver/elements/hex64_geometry.hpp"
+#include "structure_solver/elements/hex_geometry.hpp"
 #include "structure_solver/mesh/plate_edges.hpp"
 
 namespace standoff::structure {
@@ -26,12 +28,13 @@ struct PlateMeshOptions {
   std::string edges = "clamped";  // "clamped" | "pinned" | "free" | "bolted"; see plate_edges.hpp
   double density = 0.0;           // kg/m3
   double opening = 0.0;           // m, side of the square opening of a frame that bolts the plate
+  int nodes_per_edge = 4;         // of an element: 2, 3 or 4
 };
 
 struct PlateMesh {
   PlateMeshOptions options;
   std::array<int, 3> elements{};    // simulated
-  std::array<int, 3> nodes{};       // simulated, 3 elements + 1
+  std::array<int, 3> nodes{};       // simulated, order * elements + 1
   Vec3 lower, edge;                 // m: lowest corner, edges of one element
   std::vector<Vec3> position;       // at rest
   std::vector<double> mass;         // row-sum lumped, kg
@@ -54,11 +57,17 @@ struct PlateMesh {
   long element_count() const { return static_cast<long>(elements[0]) * elements[1] * elements[2]; }
   std::size_t node_count() const { return position.size(); }
   int node(int i, int j, int k) const { return i + nodes[0] * (j + nodes[1] * k); }
-  /// Node `local` (0..63, first axis fastest) of element e.
+  int per_edge() const { return options.nodes_per_edge; }
+  int order() const { return options.nodes_per_edge - 1; }
+  /// Nodes of one element, and its Gauss points.
+  int element_nodes() const { return per_edge() * per_edge() * per_edge(); }
+  const LineBasis& basis() const { return line_basis_of(per_edge()); }
+  /// Node `local` (first axis fastest) of element e.
   int element_node(long e, int local) const {
     const int a = static_cast<int>(e) % elements[0], b = static_cast<int>(e) / elements[0] % elements[1];
     const int c = static_cast<int>(e) / (elements[0] * elements[1]);
-    return node(3 * a + (local & 3), 3 * b + (local >> 2 & 3), 3 * c + (local >> 4));
+    const int n = per_edge(), p = order();
+    return node(p * a + local % n, p * b + local / n % n, p * c + local / (n * n));
   }
   BoxGeometry geometry() const { return BoxGeometry::of_edges(edge.x, edge.y, edge.z); }
   /// Position at rest of Gauss point q of element e.

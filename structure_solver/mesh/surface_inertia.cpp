@@ -9,30 +9,34 @@ namespace {
 constexpr double fixed_factor = 1e6;
 
 /// Lumped widths [m] of the element nodes along a line of `elements` of length `edge`; the Lobatto weights.
-std::vector<double> node_widths(int elements, double edge) {
-  std::vector<double> width(static_cast<std::size_t>(3 * elements + 1), 0.0);
+std::vector<double> node_widths(const LineBasis& basis, int elements, double edge) {
+  const int order = basis.nodes - 1;
+  std::vector<double> width(static_cast<std::size_t>(order * elements + 1), 0.0);
   for (int e = 0; e < elements; ++e)
-    for (int a = 0; a < 4; ++a)
-      width[static_cast<std::size_t>(3 * e + a)] += 0.5 * edge * lobatto_weight[static_cast<std::size_t>(a)];
+    for (int a = 0; a < basis.nodes; ++a)
+      width[static_cast<std::size_t>(order * e + a)] += 0.5 * edge * basis.weight[static_cast<std::size_t>(a)];
   return width;
 }
 
 /// Row s of N along the line: weights on element nodes, zero elsewhere.
-std::vector<double> surface_row(int s, int elements) {
-  std::vector<double> row(static_cast<std::size_t>(3 * elements + 1), 0.0);
-  const int element = std::min(s / 3, elements - 1);
-  const Line4& weight = to_even[static_cast<std::size_t>(s - 3 * element)];
-  for (int a = 0; a < 4; ++a) row[static_cast<std::size_t>(3 * element + a)] = weight[static_cast<std::size_t>(a)];
+std::vector<double> surface_row(const LineBasis& basis, int s, int elements) {
+  const int order = basis.nodes - 1;
+  std::vector<double> row(static_cast<std::size_t>(order * elements + 1), 0.0);
+  const int element = std::min(s / order, elements - 1);
+  const Line4& weight = basis.to_even[static_cast<std::size_t>(s - order * element)];
+  for (int a = 0; a < basis.nodes; ++a)
+    row[static_cast<std::size_t>(order * element + a)] = weight[static_cast<std::size_t>(a)];
   return row;
 }
 
 /// Effective width of every surface node along one axis; `fixed` marks element nodes that do not move.
-std::vector<double> effective_widths(int elements, double edge, const std::vector<bool>& fixed) {
-  const std::vector<double> width = node_widths(elements, edge);
-  const int last = 3 * elements;
-  const double quad = edge / 3.0;
+std::vector<double> effective_widths(const LineBasis& basis, int elements, double edge,
+                                     const std::vector<bool>& fixed) {
+  const std::vector<double> width = node_widths(basis, elements, edge);
+  const int order = basis.nodes - 1, last = order * elements;
+  const double quad = edge / order;
   auto a_entry = [&](int s, int t) {
-    const std::vector<double> ns = surface_row(s, elements), nt = surface_row(t, elements);
+    const std::vector<double> ns = surface_row(basis, s, elements), nt = surface_row(basis, t, elements);
     double sum = 0.0;
     for (std::size_t i = 0; i < width.size(); ++i)
       if (!fixed[i]) sum += ns[i] * nt[i] / width[i];
@@ -65,8 +69,8 @@ std::vector<double> surface_inertia(const PlateMesh& mesh, double wave_speed, do
   const int middle_x = mesh.nodes[0] / 2, middle_y = mesh.nodes[1] / 2, top = mesh.nodes[2] - 1;
   const auto held_x = held_line(mesh, mesh.nodes[0], [&](int i) { return mesh.node(i, middle_y, top); });
   const auto held_y = held_line(mesh, mesh.nodes[1], [&](int j) { return mesh.node(middle_x, j, top); });
-  const std::vector<double> along_x = effective_widths(mesh.elements[0], mesh.edge.x, held_x);
-  const std::vector<double> along_y = effective_widths(mesh.elements[1], mesh.edge.y, held_y);
+  const std::vector<double> along_x = effective_widths(mesh.basis(), mesh.elements[0], mesh.edge.x, held_x);
+  const std::vector<double> along_y = effective_widths(mesh.basis(), mesh.elements[1], mesh.edge.y, held_y);
   const double there_and_back = 2.0 * mesh.options.size.z / wave_speed;
   const double answering = std::min(1.0, answer_time / there_and_back);
   const double areal = mesh.options.density * mesh.options.size.z * answering;

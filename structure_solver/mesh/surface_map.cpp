@@ -5,19 +5,19 @@
 namespace standoff::structure {
 namespace {
 
-/// Evenly spaced surface line s = 0 .. 3 n: element nodes and weights that make its position.
+/// Evenly spaced surface line s = 0 .. order n: element nodes and weights that make its position.
 struct LineWeights {
-  int first;  // index of the first of four nodes along the axis
+  int first;  // index of the first node of the element along the axis
   Line4 weight;
 };
 
-LineWeights line_weights(int s, int elements) {
-  const int element = std::min(s / 3, elements - 1);
-  return {3 * element, to_even[static_cast<std::size_t>(s - 3 * element)]};
+LineWeights line_weights(const LineBasis& basis, int s, int elements) {
+  const int order = basis.nodes - 1, element = std::min(s / order, elements - 1);
+  return {order * element, basis.to_even[static_cast<std::size_t>(s - order * element)]};
 }
 
-double even_position(double lower, double edge, int s) {
-  return lower + edge * s / 3.0;
+double even_position(double lower, double edge, int s, int order) {
+  return lower + edge * s / order;
 }
 
 /// Width that belongs to line s of 0 .. last, quads of width `quad`.
@@ -31,9 +31,10 @@ SparseRows forward_rows(const PlateMesh& mesh) {
   const int top = mesh.nodes[2] - 1;
   for (int t = 0; t < mesh.nodes[1]; ++t)
     for (int s = 0; s < mesh.nodes[0]; ++s) {
-      const LineWeights x = line_weights(s, mesh.elements[0]), y = line_weights(t, mesh.elements[1]);
-      for (int b = 0; b < 4; ++b)
-        for (int a = 0; a < 4; ++a) {
+      const LineWeights x = line_weights(mesh.basis(), s, mesh.elements[0]);
+      const LineWeights y = line_weights(mesh.basis(), t, mesh.elements[1]);
+      for (int b = 0; b < mesh.per_edge(); ++b)
+        for (int a = 0; a < mesh.per_edge(); ++a) {
           const double w = x.weight[static_cast<std::size_t>(a)] * y.weight[static_cast<std::size_t>(b)];
           if (w == 0.0) continue;
           n.column.push_back(mesh.node(x.first + a, y.first + b, top));
@@ -70,10 +71,10 @@ SurfaceMesh plate_surface(const PlateMesh& mesh) {
   const double areal = mesh.options.density * mesh.options.size.z;
   for (int t = 0; t < nj; ++t)
     for (int s = 0; s < ni; ++s) {
-      surface.position.push_back(
-          {even_position(mesh.lower.x, mesh.edge.x, s), even_position(mesh.lower.y, mesh.edge.y, t), 0.0});
-      surface.node_mass.push_back(areal * tributary(s, ni - 1, mesh.edge.x / 3.0) *
-                                  tributary(t, nj - 1, mesh.edge.y / 3.0));
+      surface.position.push_back({even_position(mesh.lower.x, mesh.edge.x, s, mesh.order()),
+                                  even_position(mesh.lower.y, mesh.edge.y, t, mesh.order()), 0.0});
+      surface.node_mass.push_back(areal * tributary(s, ni - 1, mesh.edge.x / mesh.order()) *
+                                  tributary(t, nj - 1, mesh.edge.y / mesh.order()));
     }
   for (int t = 0; t + 1 < nj; ++t)
     for (int s = 0; s + 1 < ni; ++s) {

@@ -1,9 +1,9 @@
 #pragma once
 // The loaded face of a plate shown as bilinear quads, and the adjoint pair between it and the nodes of the elements:
 //   x_s = X_s + N u,   f = N^T f_s     so  f_s . (N u) = f . u  (same work),  sum f = sum f_s  (rows of N sum to one)
-// Each element face carries 3 x 3 evenly spaced quads. The surface nodes are evenly spaced, the element nodes are
-// Lobatto points, so N interpolates the cubic shape; bilinear weights straight onto Lobatto nodes would overload the
-// element corners.
+// Each face of an element with n nodes an edge carries (n - 1) x (n - 1) evenly spaced quads. The surface nodes are
+// evenly spaced, the element nodes are Lobatto points, so N interpolates the element's shape; bilinear weights straight
+// onto Lobatto nodes would overload the element corners.
 #include <span>
 #include <utility>
 
@@ -12,7 +12,7 @@
 
 namespace standoff::structure {
 
-/// Bilinear quads of the loaded face, 3 x 3 evenly spaced per element, areal mass lumped to their nodes.
+/// Bilinear quads of the loaded face, evenly spaced in each element, areal mass lumped to their nodes.
 SurfaceMesh plate_surface(const PlateMesh& mesh);
 
 /// A sparse matrix by rows; the entries of a row are summed in storage order: same bits for any thread count.

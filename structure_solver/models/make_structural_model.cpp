@@ -1,6 +1,7 @@
 #include "coupling/base/stop.hpp"
 #include "coupling/case/near_word.hpp"
 #include "structure_solver/models/pipe_hex64/pipe_hex64.hpp"
+#include "structure_solver/models/plate_hex27/plate_hex27.hpp"
 #include "structure_solver/models/plate_hex64/plate_hex64.hpp"
 #include "structure_solver/models/plate_shell/plate_shell.hpp"
 #include "structure_solver/models/rigid_plate/rigid_plate.hpp"
@@ -19,6 +20,10 @@ constexpr Entry registry[] = {
     {"plate_hex64",
      [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
        return std::make_unique<PlateHex64>(spec, threads);
+     }},
+    {"plate_hex27",
+     [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
+       return std::make_unique<PlateHex27>(spec, threads);
      }},
     {"plate_shell",
      [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "coupling/base/vec3.hpp"
-#include "structure_solver/step/hex64_force.hpp"
+#include "structure_solver/step/hex_force.hpp"
 
 namespace standoff::structure {
 
@@ -44,23 +44,29 @@ inline void turn(const Pack4& cosine, const Pack4& sine, Pack4 (&field)[3][hex_n
   }
 }
 
-/// nodes[4 * local + lane] -> displacement u; force[64 * component + local].
+/// nodes[4 * local + lane] -> displacement u; force[count * component + local] of an element with `count` nodes.
 using BatchKernel = BatchSums (*)(const MetalParameters&, const BatchShape&, const PointStep&, bool commit,
                                   const Vec3* u, const std::int32_t* nodes, Pack4* history, Pack4* force);
+
+/// Which element of the family.
+struct ElementKind {
+  int nodes_per_edge = 4;
+  bool curved = false;
+};
 
 struct KernelChoice {
   BatchKernel kernel = nullptr;
   HistoryLayout layout;
 };
 
-KernelChoice choose_kernel(const MetalEffects& effects, bool curved);
-KernelChoice elastic_kernel(bool curved);
+KernelChoice choose_kernel(const MetalEffects& effects, ElementKind kind);
+KernelChoice elastic_kernel(ElementKind kind);
 
 /// One choice per file, so that they compile side by side.
 template <RateLaw Rate>
-KernelChoice choose_kernel_with_rate(const MetalEffects& effects, bool curved);
-extern template KernelChoice choose_kernel_with_rate<RateLaw::none>(const MetalEffects&, bool);
-extern template KernelChoice choose_kernel_with_rate<RateLaw::power>(const MetalEffects&, bool);
-extern template KernelChoice choose_kernel_with_rate<RateLaw::logarithmic>(const MetalEffects&, bool);
+KernelChoice choose_kernel_with_rate(const MetalEffects& effects, ElementKind kind);
+extern template KernelChoice choose_kernel_with_rate<RateLaw::none>(const MetalEffects&, ElementKind);
+extern template KernelChoice choose_kernel_with_rate<RateLaw::power>(const MetalEffects&, ElementKind);
+extern template KernelChoice choose_kernel_with_rate<RateLaw::logarithmic>(const MetalEffects&, ElementKind);
 
 }  // namespace standoff::structure

@@ -1,9 +1,9 @@
 #include "structure_solver/step/batch_kernel_body.hpp"
 
 namespace standoff::structure {
-template KernelChoice choose_kernel_with_rate<RateLaw::none>(const MetalEffects&, bool);
+template KernelChoice choose_kernel_with_rate<RateLaw::none>(const MetalEffects&, ElementKind);
 
-KernelChoice elastic_kernel(bool curved) {
-  return choice_of<Elastic>(curved);
+KernelChoice elastic_kernel(ElementKind kind) {
+  return choice_of<Elastic>(kind);
 }
 }  // namespace standoff::structure

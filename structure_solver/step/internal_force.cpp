@@ -14,44 +14,50 @@ double initial_flow(const MetalParameters& metal, Hardening hardening) {
 
 }  // namespace
 
-KernelChoice choose_kernel(const MetalEffects& effects, bool curved) {
-  if (!effects.plasticity) return elastic_kernel(curved);
+KernelChoice choose_kernel(const MetalEffects& effects, ElementKind kind) {
+  if (!effects.plasticity) return elastic_kernel(kind);
   switch (effects.rate) {
     case RateLaw::power:
-      return choose_kernel_with_rate<RateLaw::power>(effects, curved);
+      return choose_kernel_with_rate<RateLaw::power>(effects, kind);
     case RateLaw::logarithmic:
-      return choose_kernel_with_rate<RateLaw::logarithmic>(effects, curved);
+      return choose_kernel_with_rate<RateLaw::logarithmic>(effects, kind);
     case RateLaw::none:
       break;
   }
-  return choose_kernel_with_rate<RateLaw::none>(effects, curved);
+  return choose_kernel_with_rate<RateLaw::none>(effects, kind);
 }
 
 InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal, const MetalEffects& effects,
                              int threads)
-    : mesh_(mesh), metal_(metal), choice_(choose_kernel(effects, mesh.bent())), threads_(threads) {
+    : mesh_(mesh),
+      metal_(metal),
+      choice_(choose_kernel(effects, {mesh.per_edge(), mesh.bent()})),
+      threads_(threads),
+      count_(static_cast<std::size_t>(mesh.element_nodes())),
+      component_stride_(static_cast<std::ptrdiff_t>(4 * count_)) {
   const long elements = mesh.element_count(), count = (elements + 3) / 4;
-  nodes_.resize(static_cast<std::size_t>(count));
-  sums_.resize(nodes_.size());
+  const int local_nodes = mesh.element_nodes();
+  sums_.resize(static_cast<std::size_t>(count));
+  nodes_.resize(sums_.size() * 4 * count_);
   shape_batches();
-  buffer_.resize(nodes_.size() * 3 * hex_nodes);
+  buffer_.resize(sums_.size() * 3 * count_);
   node_begin_.assign(mesh.node_count() + 1, 0);
   for (long e = 0; e < 4 * count; ++e)
-    for (int a = 0; a < hex_nodes; ++a) {
+    for (int a = 0; a < local_nodes; ++a) {
       const int node = mesh.element_node(std::min(e, elements - 1), a);
-      nodes_[static_cast<std::size_t>(e / 4)][static_cast<std::size_t>(4 * a + e % 4)] = node;
+      nodes_[static_cast<std::size_t>(e / 4 * local_nodes + a) * 4 + static_cast<std::size_t>(e % 4)] = node;
       if (e < elements) ++node_begin_[static_cast<std::size_t>(node) + 1];
     }
   for (std::size_t i = 0; i < mesh.node_count(); ++i) node_begin_[i + 1] += node_begin_[i];
   node_entry_.resize(static_cast<std::size_t>(node_begin_.back()));
   std::vector<std::int32_t> next(node_begin_.begin(), node_begin_.end() - 1);
   for (long e = 0; e < elements; ++e)
-    for (int a = 0; a < hex_nodes; ++a)
+    for (int a = 0; a < local_nodes; ++a)
       node_entry_[static_cast<std::size_t>(next[static_cast<std::size_t>(mesh.element_node(e, a))]++)] =
-          static_cast<std::int32_t>((e / 4 * 3 * hex_nodes + a) * 4 + e % 4);
+          static_cast<std::int32_t>((e / 4 * 3 * local_nodes + a) * 4 + e % 4);
 
   const HistoryLayout& layout = choice_.layout;
-  history_.assign(nodes_.size() * hex_points * static_cast<std::size_t>(layout.fields), Pack4(0.0));
+  history_.assign(sums_.size() * count_ * static_cast<std::size_t>(layout.fields), Pack4(0.0));
   const double static_stress = initial_flow(metal, effects.hardening);
   for (std::size_t row = 0; row < history_.size(); row += static_cast<std::size_t>(layout.fields)) {
     if (layout.temperature >= 0)
@@ -63,7 +69,7 @@ InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal
 /// Elements of a pipe are copies of the first of their layer of the wall, each turned by the angle of its column.
 void InternalForce::shape_batches() {
   const BoxGeometry box = mesh_.geometry();
-  shapes_.assign(nodes_.size(), BatchShape{box, nullptr, Pack4(1.0), Pack4(0.0)});
+  shapes_.assign(sums_.size(), BatchShape{box, nullptr, Pack4(1.0), Pack4(0.0)});
   if (!mesh_.bent()) return;
   const long layer = static_cast<long>(mesh_.elements[0]) * mesh_.elements[1];
   for (long e = 0; e < mesh_.element_count(); e += layer) {
@@ -85,12 +91,12 @@ void InternalForce::shape_batches() {
 }
 
 ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step, bool commit) {
-  const auto history_stride = hex_points * static_cast<std::size_t>(choice_.layout.fields);
-  const auto count = nodes_.size();
+  const auto history_stride = count_ * static_cast<std::size_t>(choice_.layout.fields);
+  const auto count = sums_.size();
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t b = 0; b < count; ++b)
-    sums_[b] = choice_.kernel(metal_, shapes_[b], step, commit, u.data(), nodes_[b].data(),
-                              history_.data() + b * history_stride, &buffer_[b * 3 * hex_nodes]);
+    sums_[b] = choice_.kernel(metal_, shapes_[b], step, commit, u.data(), &nodes_[b * 4 * count_],
+                              history_.data() + b * history_stride, &buffer_[b * 3 * count_]);
   ForceSums total;
   const long elements = mesh_.element_count();
   for (long e = 0; e < elements; ++e) {
@@ -104,22 +110,23 @@ ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step
 
 void InternalForce::add_to(StateHash& hash) const {
   for (long e = 0; e < mesh_.element_count(); ++e)
-    for (int q = 0; q < hex_points; ++q)
+    for (int q = 0; q < points(); ++q)
       for (int f = 0; f < choice_.layout.fields; ++f) hash.add(history(e, q, f));
 }
 
 void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::array<ElementMatrix, 4>& out) {
   // Elastic strains of 1e-5: the second-order error of the difference and rounding are both near 1e-9 of the result.
-  const double delta = 1e-5 * std::min({mesh_.edge.x, mesh_.edge.y, mesh_.edge.z}) / 3.0;
+  const double delta = 1e-5 * std::min({mesh_.edge.x, mesh_.edge.y, mesh_.edge.z}) / mesh_.order();
   const auto b = static_cast<std::size_t>(batch);
-  std::array<Vec3, 256> local;
-  std::array<std::int32_t, 256> own;
-  for (std::size_t i = 0; i < 256; ++i) {
-    local[i] = u[static_cast<std::size_t>(nodes_[b][i])];
+  std::vector<Vec3> local(4 * count_);
+  std::vector<std::int32_t> own(4 * count_);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    local[i] = u[static_cast<std::size_t>(nodes_[b * 4 * count_ + i])];
     own[i] = static_cast<std::int32_t>(i);
   }
-  std::vector<Pack4> plus(3 * hex_nodes), minus(3 * hex_nodes);
-  Pack4* const history = history_.data() + b * hex_points * static_cast<std::size_t>(choice_.layout.fields);
+  const std::size_t dofs = 3 * count_;
+  std::vector<Pack4> plus(dofs), minus(dofs);
+  Pack4* const history = history_.data() + b * count_ * static_cast<std::size_t>(choice_.layout.fields);
   auto force_at = [&](std::size_t node, double Vec3::*component, double shift, std::vector<Pack4>& f) {
     const auto saved = local;
     for (std::size_t i = 0; i < 4; ++i) local[4 * node + i].*component += shift;
@@ -127,35 +134,38 @@ void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::
     local = saved;
   };
   double Vec3::*const components[3] = {&Vec3::x, &Vec3::y, &Vec3::z};
-  for (std::size_t node = 0; node < 64; ++node)
+  for (std::size_t node = 0; node < count_; ++node)
     for (std::size_t c = 0; c < 3; ++c) {
       force_at(node, components[c], delta, plus);
       force_at(node, components[c], -delta, minus);
-      for (std::size_t row = 0; row < 192; ++row) {
-        const Pack4 slope = (plus[64 * (row % 3) + row / 3] - minus[64 * (row % 3) + row / 3]) * Pack4(0.5 / delta);
-        for (std::size_t i = 0; i < 4; ++i) out[i][192 * row + 3 * node + c] = lane(slope, static_cast<int>(i));
+      for (std::size_t row = 0; row < dofs; ++row) {
+        const std::size_t entry = count_ * (row % 3) + row / 3;
+        const Pack4 slope = (plus[entry] - minus[entry]) * Pack4(0.5 / delta);
+        for (std::size_t i = 0; i < 4; ++i) out[i][dofs * row + 3 * node + c] = lane(slope, static_cast<int>(i));
       }
     }
   for (ElementMatrix& k : out)
-    for (std::size_t i = 0; i < 192; ++i)
-      for (std::size_t j = 0; j < i; ++j) k[192 * i + j] = k[192 * j + i] = 0.5 * (k[192 * i + j] + k[192 * j + i]);
+    for (std::size_t i = 0; i < dofs; ++i)
+      for (std::size_t j = 0; j < i; ++j) k[dofs * i + j] = k[dofs * j + i] = 0.5 * (k[dofs * i + j] + k[dofs * j + i]);
 }
 
 /// How much faster waves cross the deformed elements of a batch than those at rest, squared, at the worst point:
 /// sum_d |F^-T g_d|^2 / sum_d |g_d|^2 with the parametric directions g_d = dxi_d / dX.
 template <class Geometry>
 double InternalForce::worst_shape(const Geometry& geometry, std::size_t batch, std::span<const Vec3> u) const {
-  Pack4 nodal[3][hex_nodes], gradient[3][3][hex_points];
-  for (std::size_t a = 0; a < hex_nodes; ++a)
+  constexpr int N = Geometry::per_edge, count = Geometry::nodes;
+  Pack4 nodal[3][count], gradient[3][3][count];
+  for (std::size_t a = 0; a < count; ++a)
     for (std::size_t i = 0; i < 4; ++i) {
-      const Vec3& v = u[static_cast<std::size_t>(nodes_[batch][4 * a + i])];
+      const Vec3& v = u[static_cast<std::size_t>(nodes_[(batch * count + a) * 4 + i])];
       set_lane(nodal[0][a], static_cast<int>(i), v.x), set_lane(nodal[1][a], static_cast<int>(i), v.y);
       set_lane(nodal[2][a], static_cast<int>(i), v.z);
     }
-  if (mesh_.bent()) turn(shapes_[batch].cosine, shapes_[batch].sine, nodal);
-  for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+  if constexpr (N == 4)
+    if (mesh_.bent()) turn(shapes_[batch].cosine, shapes_[batch].sine, nodal);
+  for (int c = 0; c < 3; ++c) hex_gradient<N>(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
   Pack4 worst(1.0);
-  for (int q = 0; q < hex_points; ++q) {
+  for (int q = 0; q < count; ++q) {
     const Mat3<Pack4> f = deformation_gradient(geometry.reference_gradient(q, load_gradient(gradient, q)));
     const Mat3<Pack4> c = cofactor(f);
     const Pack4 j = rows(f, 0, c, 0);
@@ -175,10 +185,13 @@ double InternalForce::worst_shape(const Geometry& geometry, std::size_t batch, s
 }
 
 double InternalForce::shape_factor(std::span<const Vec3> u) const {
-  std::vector<double> largest(nodes_.size());
+  std::vector<double> largest(sums_.size());
 #pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t b = 0; b < nodes_.size(); ++b)
-    largest[b] = mesh_.bent() ? worst_shape(*shapes_[b].curved, b, u) : worst_shape(shapes_[b].box, b, u);
+  for (std::size_t b = 0; b < largest.size(); ++b)
+    largest[b] =
+        mesh_.bent() ? worst_shape(*shapes_[b].curved, b, u) : with_nodes_per_edge(mesh_.per_edge(), [&](auto n) {
+          return worst_shape(BoxGeometryOf<n()>::of_box(shapes_[b].box), b, u);
+        });
   return std::sqrt(1.0 / *std::max_element(largest.begin(), largest.end()));
 }
 

@@ -6,7 +6,8 @@
 // Each batch writes its own part of the buffer and each node is summed by one thread in a fixed order: the result has
 // the same bits for any number of threads. Idle lanes of the last batch repeat the last element and are not counted.
 //
-// DATA LAYOUT  history: Pack4[batch][64 points][fields], lane = element 4 batch + lane     buffer: Pack4[batch][3][64]
+// DATA LAYOUT  count = nodes = Gauss points of an element; lane = element 4 batch + lane
+//   history: Pack4[batch][count][fields]     buffer: Pack4[batch][3][count]     nodes: [batch][count][lane]
 #include <array>
 #include <span>
 #include <vector>
@@ -33,14 +34,14 @@ class InternalForce {
     Vec3 sum;
     for (std::int32_t e = node_begin_[i]; e < node_begin_[i + 1]; ++e) {
       const double* f = reinterpret_cast<const double*>(buffer_.data()) + node_entry_[static_cast<std::size_t>(e)];
-      sum += Vec3{f[0], f[component_stride], f[2 * component_stride]};
+      sum += Vec3{f[0], f[component_stride_], f[2 * component_stride_]};
     }
     return sum;
   }
 
   /// One number of the committed history.
   double history(long element, int point, int field) const {
-    const auto row = (element / 4 * hex_points + point) * choice_.layout.fields + field;
+    const auto row = (element / 4 * points() + point) * choice_.layout.fields + field;
     return lane(history_[static_cast<std::size_t>(row)], static_cast<int>(element % 4));
   }
   double plastic_strain(long element, int point) const {
@@ -52,6 +53,8 @@ class InternalForce {
   }
   /// The shape at rest of element e.
   const BatchShape& shape(long e) const { return shapes_[static_cast<std::size_t>(e / 4)]; }
+  /// Gauss points of an element; as many as nodes.
+  int points() const { return static_cast<int>(count_); }
   const HistoryLayout& layout() const { return choice_.layout; }
   const MetalParameters& metal() const { return metal_; }
   std::size_t history_bytes() const { return history_.size() * sizeof(Pack4); }
@@ -61,15 +64,15 @@ class InternalForce {
     a(history_);  // forces of the elements are made anew each step
   }
 
-  using ElementMatrix = std::array<double, 192 * 192>;  // [3 a + i][3 b + j], symmetric
+  /// [3 a + i][3 b + j], symmetric, rows of 3 points() numbers: room for the largest element.
+  using ElementMatrix = std::array<double, 192 * 192>;
   /// Elastic tangent of up to four elements of a batch at u, plastic flow frozen, by central differences of the force.
   void element_stiffness(std::span<const Vec3> u, long batch, std::array<ElementMatrix, 4>& out);
-  long batches() const { return static_cast<long>(nodes_.size()); }
+  long batches() const { return static_cast<long>(sums_.size()); }
   /// Least of (stable step now / stable step at rest) over all Gauss points, from the deformed shape alone.
   double shape_factor(std::span<const Vec3> u) const;
 
  private:
-  static constexpr std::ptrdiff_t component_stride = 64 * 4;
   void shape_batches();
   template <class Geometry>
   double worst_shape(const Geometry& geometry, std::size_t batch, std::span<const Vec3> u) const;
@@ -80,7 +83,9 @@ class InternalForce {
   std::vector<BatchShape> shapes_;      // per batch
   KernelChoice choice_;
   int threads_;
-  std::vector<std::array<std::int32_t, 256>> nodes_;  // [batch][4 local + lane]
+  std::size_t count_;                // nodes, and Gauss points, of an element
+  std::ptrdiff_t component_stride_;  // in the buffer, counted in numbers
+  std::vector<std::int32_t> nodes_;  // [batch][4 local + lane]
   std::vector<Pack4> history_, buffer_;
   std::vector<BatchSums> sums_;                        // per batch
   std::vector<std::int32_t> node_begin_, node_entry_;  // contributions of each node, in element order

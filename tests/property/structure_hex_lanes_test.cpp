@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "structure_solver/step/hex64_force.hpp"
+#include "structure_solver/step/hex_force.hpp"
 #include "tests/unit/structure_plate_case.hpp"
 
 namespace standoff::structure {
@@ -53,8 +53,8 @@ TEST(Hex64_FourLanes, ElasticFlowingAndFarStrained_HoldTheBitsOfTheScalarElement
           set_lane(pack->u[c][a], i, u);
           (*one)[static_cast<std::size_t>(i)].u[c][a] = u;
         }
-    hex64_force<Law>(metal, box, {1e-6, true}, true, pack->u, pack->history, pack->force);
-    for (auto& e : *one) hex64_force<Law>(metal, box, {1e-6, true}, true, e.u, e.history, e.force);
+    hex_force<Law>(metal, box, {1e-6, true}, true, pack->u, pack->history, pack->force);
+    for (auto& e : *one) hex_force<Law>(metal, box, {1e-6, true}, true, e.u, e.history, e.force);
     for (int i = 0; i < 4; ++i) {
       const Element<double>& scalar = (*one)[static_cast<std::size_t>(i)];
       for (int a = 0; a < hex_nodes; ++a) ASSERT_EQ(lane(pack->force[2][a], i), scalar.force[2][a]) << "lane " << i;

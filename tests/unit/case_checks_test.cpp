@@ -65,7 +65,7 @@ TEST(SceneChecks, EachImpossibleScene_IsOneErrorAtTheValueThatMadeItSo) {
        "the domain is smaller than the scene: it ends at z = 200 mm, the sand at z = 226.2 mm"},
       {"domain.lower", "[-1 m, -1 m, 0 m]", "the domain is smaller than the scene: it begins at z = 0 m"},
       {"soil.bulk_density", "0 kg/m3", "out of range; bulk_density > 0 kg/m3"},
-      {"plate.model", "plate_hex8", "is not a choice here\n  did you mean \"plate_hex64\"?"}};
+      {"plate.model", "plate_hex644", "is not a choice here\n  did you mean \"plate_hex64\"?"}};
   for (const Mistake& mistake : mistakes)
     EXPECT_THAT(error_of(mistake.key, mistake.value), HasSubstr(mistake.message)) << mistake.key;
 }

@@ -111,15 +111,15 @@ TEST(SurfaceMap_UniformPressure, OverOneElement_KeepsResultantAndMoments) {
 }
 
 TEST(VtkHexahedron_Order, SixtyFourPoints_IsAPermutationWithVtkCornersFirst) {
-  std::array<int, 64> sorted = vtk_cubic_order;
+  std::array<int, 64> sorted = vtk_order<4>;
   std::sort(sorted.begin(), sorted.end());
   for (int i = 0; i < 64; ++i) EXPECT_EQ(sorted[static_cast<std::size_t>(i)], i);
   // Corners of VTK_HEXAHEDRON, then the first upright edge between corners 0 and 4, 1 and 5, 2 and 6, 3 and 7
   // (file 2.2).
   const std::array<int, 8> corners = {0, 3, 15, 12, 48, 51, 63, 60};
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(vtk_cubic_order[i], corners[i]);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(vtk_order<4>[i], corners[i]);
   const std::array<int, 8> upright = {16, 32, 19, 35, 31, 47, 28, 44};
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(vtk_cubic_order[24 + i], upright[i]);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(vtk_order<4>[24 + i], upright[i]);
 }
 
 }  // namespace

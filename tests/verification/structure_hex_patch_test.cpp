@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "structure_solver/step/hex64_force.hpp"
+#include "structure_solver/step/hex_force.hpp"
 #include "tests/unit/structure_plate_case.hpp"
 
 namespace standoff::structure {
@@ -53,8 +53,7 @@ TEST(Hex64_PatchTest, LinearFieldOnDistortedElements_InnerForcesVanish) {
     distorted_nodes(e, x);
     linear_field(x, u);
     std::vector<double> history(hex_points * Frozen::fields, 0.0);
-    const auto sums =
-        hex64_force<Frozen>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f[e]);
+    const auto sums = hex_force<Frozen>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f[e]);
     EXPECT_TRUE(sums.sound);
     for (const auto& row : f[e])
       for (const double v : row) largest = std::max(largest, std::fabs(v));
@@ -74,7 +73,7 @@ TEST(Hex64_PatchTest, LinearFieldOnADistortedElement_StoredEnergyIsThatOfUniform
   linear_field(x, u);
   const CurvedGeometry geometry = CurvedGeometry::of_nodes(x);
   std::vector<double> history(hex_points * Frozen::fields, 0.0);
-  const auto sums = hex64_force<Frozen>(metal, geometry, PointStep{}, true, u, history.data(), f);
+  const auto sums = hex_force<Frozen>(metal, geometry, PointStep{}, true, u, history.data(), f);
   PointHistory<double> s{};
   s.static_stress = 1e15;
   double volume = 0.0;
@@ -111,7 +110,7 @@ TEST(Hex64_RigidMotion, LargeRotation_LeavesNoForce) {
     u[2][a] = -0.2;
   }
   std::vector<double> history(hex_points * Frozen::fields, 0.0);
-  hex64_force<Frozen>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f);
+  hex_force<Frozen>(metal, CurvedGeometry::of_nodes(x), PointStep{}, true, u, history.data(), f);
   // Gradients of displacements of 0.3 m over 1 mm node spacing: rounding 3e-14 of strain, times 2 G, area 1e-5 m2.
   for (const auto& row : f)
     for (const double v : row) EXPECT_NEAR(v, 0.0, 1e-12 * 2.0 * metal.shear * 1e-4) << "N";
@@ -123,8 +122,8 @@ TEST(Hex64_Gradient, RandomFields_TransposeIsTheAdjoint) {
     u[i] = std::sin(1.3 * static_cast<double>(i));
     for (std::size_t d = 0; d < 3; ++d) t[d][i] = std::cos(0.7 * static_cast<double>(i * (d + 1)));
   }
-  hex64_gradient(u.data(), g[0].data(), g[1].data(), g[2].data());
-  hex64_gradient_transpose(t[0].data(), t[1].data(), t[2].data(), out.data());
+  hex_gradient<4>(u.data(), g[0].data(), g[1].data(), g[2].data());
+  hex_gradient_transpose<4>(t[0].data(), t[1].data(), t[2].data(), out.data());
   double left = 0.0, right = 0.0;
   for (std::size_t i = 0; i < 64; ++i) {
     left += out[i] * u[i];

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "structure_solver/step/hex64_force.hpp"
+#include "structure_solver/step/hex_force.hpp"
 #include "tests/unit/structure_plate_case.hpp"
 
 namespace standoff::structure {
@@ -40,9 +40,9 @@ TEST(Hex64_StressedElement, FullTurnInTenThousandSteps_KeepsStressHistoryAndEner
     history[q * Law::fields + Law::temperature_field] = 296.0;
     history[q * Law::fields + Law::static_stress_field] = 410e6;
   }
-  hex64_force<Law>(metal, geometry, {1e-6, true}, true, u, history.data(), first);
+  hex_force<Law>(metal, geometry, {1e-6, true}, true, u, history.data(), first);
   const std::vector<double> committed = history;
-  const double energy = hex64_force<Law>(metal, geometry, {1e-6, true}, true, u, history.data(), first).elastic;
+  const double energy = hex_force<Law>(metal, geometry, {1e-6, true}, true, u, history.data(), first).elastic;
   double largest = 0.0, strain = 0.0;
   for (const auto& row : first)
     for (const double value : row) largest = std::max(largest, std::fabs(value));
@@ -50,7 +50,7 @@ TEST(Hex64_StressedElement, FullTurnInTenThousandSteps_KeepsStressHistoryAndEner
   ASSERT_GT(strain, 5e-3);
   for (int i = 1; i <= 10000; ++i) {
     turned(x, u, 2.0 * M_PI * i / 10000.0, v);
-    const auto sums = hex64_force<Law>(metal, geometry, {1e-7, true}, true, v, history.data(), f);
+    const auto sums = hex_force<Law>(metal, geometry, {1e-7, true}, true, v, history.data(), f);
     ASSERT_NEAR(sums.elastic / energy, 1.0, 1e-10) << "step " << i;
     const double c = std::cos(2.0 * M_PI * i / 10000.0), s = std::sin(2.0 * M_PI * i / 10000.0);
     ASSERT_NEAR(f[0][21], c * first[0][21] - s * first[1][21], 1e-10 * largest) << "N, step " << i;

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "coupling/base/vec3.hpp"
-#include "structure_solver/step/hex64_force.hpp"
+#include "structure_solver/step/hex_force.hpp"
 
 namespace standoff::structure::testing {
 
@@ -102,9 +102,9 @@ class TaylorBar {
     element_.push_back(nodes);
     double weight[hex_points], b[hex_points], c[hex_points], lumped[hex_nodes];
     for (int q = 0; q < hex_points; ++q) weight[q] = o_.density * geometry_.back().weight(q);
-    contract_axis<1, true, false>(to_gauss, weight, b);
-    contract_axis<4, true, false>(to_gauss, b, c);
-    contract_axis<16, true, false>(to_gauss, c, lumped);
+    contract_axis<4, 1, true, false>(line_basis<4>.to_gauss, weight, b);
+    contract_axis<4, 4, true, false>(line_basis<4>.to_gauss, b, c);
+    contract_axis<4, 16, true, false>(line_basis<4>.to_gauss, c, lumped);
     for (std::size_t a = 0; a < hex_nodes; ++a) mass_[nodes[a]] += lumped[a];
     std::vector<double> history(hex_points * Law::fields, 0.0);
     for (std::size_t q = 0; q < hex_points; ++q) {
@@ -158,7 +158,7 @@ class TaylorBar {
         const Vec3& at = u_[element_[e][a]];
         u[0][a] = at.x, u[1][a] = at.y, u[2][a] = at.z;
       }
-      const auto sums = hex64_force<Law>(metal_, geometry_[e], {dt, true}, true, u, history_[e].data(), force);
+      const auto sums = hex_force<Law>(metal_, geometry_[e], {dt, true}, true, u, history_[e].data(), force);
       all.elastic += sums.elastic, all.inelastic += sums.inelastic, all.sound = all.sound && sums.sound;
       for (std::size_t a = 0; a < hex_nodes; ++a) f[element_[e][a]] += Vec3{force[0][a], force[1][a], force[2][a]};
     }

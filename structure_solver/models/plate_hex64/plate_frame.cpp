@@ -13,12 +13,13 @@ std::vector<Vec3> resample_axis(const PlateMesh& mesh, const std::vector<Vec3>& 
   const std::size_t strides[3] = {1, static_cast<std::size_t>(mesh.nodes[0]),
                                   static_cast<std::size_t>(mesh.nodes[0]) * static_cast<std::size_t>(mesh.nodes[1])};
   const std::size_t stride = strides[axis], count = static_cast<std::size_t>(mesh.nodes[axis]);
-  const auto elements = static_cast<std::size_t>(mesh.elements[axis]);
+  const auto elements = static_cast<std::size_t>(mesh.elements[axis]), order = static_cast<std::size_t>(mesh.order());
   for (std::size_t i = 0; i < in.size(); ++i) {
     const std::size_t place = i / stride % count;
-    const std::size_t element = std::min(place / 3, elements - 1), first = i - (place - 3 * element) * stride;
-    const Line4& weight = to_even[place - 3 * element];
-    for (std::size_t a = 0; a < 4; ++a) out[i] += weight[a] * in[first + a * stride];
+    const std::size_t element = std::min(place / order, elements - 1);
+    const std::size_t first = i - (place - order * element) * stride;
+    const Line4& weight = mesh.basis().to_even[place - order * element];
+    for (std::size_t a = 0; a <= order; ++a) out[i] += weight[a] * in[first + a * stride];
   }
   return out;
 }
@@ -34,8 +35,10 @@ struct CellValues {
   Sym3<double> stress{};
 };
 
-using Nodal = double[3][hex_nodes];
-using Gradients = double[3][3][hex_points];
+template <int N>
+using Nodal = double[3][N * N * N];
+template <int N>
+using Gradients = double[3][3][N * N * N];
 
 /// Angle about z into the frame in which an element of a pipe is computed.
 struct Turn {
@@ -52,14 +55,15 @@ struct Turn {
   }
 };
 
+template <int N>
 void gradients_of(const PlateMesh& mesh, const std::vector<Vec3>& field, long e, const Turn& turn,
-                  Gradients& gradient) {
-  Nodal nodal;
-  for (int a = 0; a < hex_nodes; ++a) {
+                  Gradients<N>& gradient) {
+  Nodal<N> nodal;
+  for (int a = 0; a < N * N * N; ++a) {
     const Vec3 v = turn.in(field[static_cast<std::size_t>(mesh.element_node(e, a))]);
     nodal[0][a] = v.x, nodal[1][a] = v.y, nodal[2][a] = v.z;
   }
-  for (int c = 0; c < 3; ++c) hex64_gradient(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+  for (int c = 0; c < 3; ++c) hex_gradient<N>(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
 }
 
 /// Cauchy stress: (2 G dev eps + K (tr eps - 3 alpha (T - Tr)) I) / J of the elastic logarithmic strain eps.
@@ -107,11 +111,11 @@ CellValues cell_values(const PlateSolid& plate, long e, const Geometry& geometry
   const PlateMesh& mesh = plate.mesh();
   const InternalForce& forces = plate.forces();
   const Turn turn{std::cos(mesh.angle_to_first(e)), std::sin(mesh.angle_to_first(e))};
-  Gradients moved, moving;
-  gradients_of(mesh, plate.state().u, e, turn, moved);
-  gradients_of(mesh, plate.state().v, e, turn, moving);
+  Gradients<Geometry::per_edge> moved, moving;
+  gradients_of<Geometry::per_edge>(mesh, plate.state().u, e, turn, moved);
+  gradients_of<Geometry::per_edge>(mesh, plate.state().v, e, turn, moving);
   CellValues v;
-  for (int q = 0; q < hex_points; ++q) {
+  for (int q = 0; q < Geometry::nodes; ++q) {
     const double share = geometry.weight(q) / volume;
     const Mat3<double> h = geometry.reference_gradient(q, load_gradient(moved, q));
     const Mat3<double> f = deformation_gradient(h), c = cofactor(f);
@@ -169,10 +173,14 @@ StructureFrame plate_frame(const PlateSolid& plate) {
   std::vector<CellValues> values;
   for (long e = 0; e < mesh.element_count(); ++e) {
     auto& cell = frame.cells.emplace_back();
-    for (const int local : vtk_cubic_order) cell.push_back(mesh.element_node(e, local));
     const BatchShape& shape = plate.forces().shape(e);
-    values.push_back(shape.curved != nullptr ? cell_values(plate, e, *shape.curved, shape.curved->volume())
-                                             : cell_values(plate, e, shape.box, shape.box.volume));
+    with_nodes_per_edge(mesh.per_edge(), [&](auto n) {
+      for (const int local : vtk_order<n()>) cell.push_back(mesh.element_node(e, local));
+      if (shape.curved != nullptr)
+        values.push_back(cell_values(plate, e, *shape.curved, shape.curved->volume()));
+      else
+        values.push_back(cell_values(plate, e, BoxGeometryOf<n()>::of_box(shape.box), shape.box.volume));
+    });
   }
   for (const Column& column : columns(plate.forces().layout())) {
     auto& [name, data] = frame.cell_data.emplace_back(column.name, std::vector<double>{});

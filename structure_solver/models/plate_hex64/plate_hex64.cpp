@@ -39,7 +39,7 @@ PlateHex64::PlateHex64(PlateMesh mesh, const CaseSpec& spec, int threads)
       integrate_(timers_.add("integrate")) {
   map_.show_inertia(surface_inertia(plate_.mesh(), wave_speed(spec.plate.material), answer_time(spec)));
   if (metal_effects(spec).rate != RateLaw::none)
-    strain_mark_.assign(static_cast<std::size_t>(plate_.mesh().element_count()) * hex_points, 0.0);
+    strain_mark_.assign(static_cast<std::size_t>(plate_.mesh().element_count() * plate_.forces().points()), 0.0);
 }
 
 void PlateHex64::surface_motion(SurfaceMotion& motion) const {
@@ -70,9 +70,9 @@ void PlateHex64::step(double dt) {
 void PlateHex64::watch_strain_rate() {
   const double interval = plate_.time() - mark_time_;
   double largest = 0.0;
+  const auto points = static_cast<std::size_t>(plate_.forces().points());
   for (std::size_t i = 0; i < strain_mark_.size(); ++i) {
-    const double now =
-        plate_.forces().plastic_strain(static_cast<long>(i / hex_points), static_cast<int>(i % hex_points));
+    const double now = plate_.forces().plastic_strain(static_cast<long>(i / points), static_cast<int>(i % points));
     largest = std::max(largest, now - strain_mark_[i]);
     strain_mark_[i] = now;
   }

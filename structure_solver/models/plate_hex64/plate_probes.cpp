@@ -18,24 +18,25 @@ PlateProbes::AxisPoint PlateProbes::axis_point(std::size_t axis, double coordina
   const double place = (coordinate - lower[axis]) / edge[axis];
   // A point on an element boundary is that boundary's node: round first, so that no rounding error reaches the weights.
   const double nearest = std::round(place);
+  const auto last = static_cast<std::size_t>(mesh_.order());
   if (std::fabs(place - nearest) < 1e-9) {
     const int element = std::min(static_cast<int>(nearest), mesh_.elements[axis] - 1);
-    return {3 * element, static_cast<int>(nearest) == element ? Line4{1, 0, 0, 0} : Line4{0, 0, 0, 1}};
+    return {mesh_.order() * element, mesh_.basis().to_even[static_cast<int>(nearest) == element ? 0 : last]};
   }
   const int element = std::clamp(static_cast<int>(place), 0, mesh_.elements[axis] - 1);
-  return {3 * element, lagrange(lobatto_node, 2.0 * (place - element) - 1.0)};
+  return {mesh_.order() * element, mesh_.basis().at(2.0 * (place - element) - 1.0)};
 }
 
 PlateProbes::AxisPoint PlateProbes::at_node(int j) const {
-  AxisPoint y{std::min(j / 3, mesh_.elements[1] - 1) * 3, {}};
+  AxisPoint y{std::min(j / mesh_.order(), mesh_.elements[1] - 1) * mesh_.order(), {}};
   y.weight[static_cast<std::size_t>(j - y.first)] = 1.0;
   return y;
 }
 
 double PlateProbes::mid_surface(std::span<const Vec3> u, int i, const AxisPoint& y) const {
   double sum = 0.0;
-  for (int k = 0; k < 4; ++k)
-    for (int j = 0; j < 4; ++j)
+  for (int k = 0; k < mesh_.per_edge(); ++k)
+    for (int j = 0; j < mesh_.per_edge(); ++j)
       sum += middle_.weight[static_cast<std::size_t>(k)] * y.weight[static_cast<std::size_t>(j)] *
              dot(mesh_.outward(i), u[static_cast<std::size_t>(mesh_.node(i, y.first + j, middle_.first + k))]);
   return sum;
@@ -43,7 +44,7 @@ double PlateProbes::mid_surface(std::span<const Vec3> u, int i, const AxisPoint&
 
 double PlateProbes::on_line(std::span<const Vec3> u, const AxisPoint& y) const {
   double sum = 0.0;
-  for (int a = 0; a < 4; ++a) {
+  for (int a = 0; a < mesh_.per_edge(); ++a) {
     const double w = centre_x_.weight[static_cast<std::size_t>(a)];
     if (w != 0.0) sum += w * mid_surface(u, centre_x_.first + a, y);
   }
@@ -89,7 +90,7 @@ StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
   const double margin = std::max(half_x, half_y) / 10.0;  // two elements of a 40 x 40 mesh
   double nearest = 1e300;
   for (long e = 0; e < mesh_.element_count(); ++e)
-    for (int q = 0; q < hex_points; ++q) {
+    for (int q = 0; q < forces.points(); ++q) {
       const double strain = forces.plastic_strain(e, q);
       const Vec3 at = mesh_.gauss_position(e, q);
       x.max_plastic_strain = std::max(x.max_plastic_strain, strain);

@@ -20,7 +20,7 @@ class PlateProbes {
   StructureExtremes extremes(const InternalForce& forces) const;
 
  private:
-  /// Four neighbours on an axis and the weights that interpolate between them.
+  /// The nodes of an element on an axis and the weights that interpolate between them.
   struct AxisPoint {
     int first = 0;
     Line4 weight{};

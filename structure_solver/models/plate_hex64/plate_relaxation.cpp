@@ -88,9 +88,9 @@ std::vector<std::vector<std::int32_t>> PlateRelaxation::columns_of_nodes() const
   const PlateMesh& mesh = plate_.mesh();
   std::vector<std::vector<std::int32_t>> columns(mesh.node_count());
   for (long e = 0; e < mesh.element_count(); ++e)
-    for (int a = 0; a < hex_nodes; ++a) {
+    for (int a = 0; a < mesh.element_nodes(); ++a) {
       auto& column = columns[static_cast<std::size_t>(mesh.element_node(e, a))];
-      for (int b = 0; b < hex_nodes; ++b) column.push_back(mesh.element_node(e, b));
+      for (int b = 0; b < mesh.element_nodes(); ++b) column.push_back(mesh.element_node(e, b));
     }
   for (auto& column : columns) {
     std::sort(column.begin(), column.end());
@@ -136,22 +136,23 @@ Eigen::SparseMatrix<double> PlateRelaxation::stiffness(std::span<const double> u
   const PlateMesh& mesh = plate_.mesh();
   Eigen::SparseMatrix<double> k = empty_stiffness();
   const std::vector<Vec3> full = spread(u);
+  const auto nodes = static_cast<std::size_t>(mesh.element_nodes()), element_dofs = 3 * nodes;
   auto element = std::make_unique<std::array<InternalForce::ElementMatrix, 4>>();
   for (long batch = 0; batch < plate_.forces().batches(); ++batch) {
     plate_.forces().element_stiffness(full, batch, *element);
     for (long e = 4 * batch; e < std::min(4 * batch + 4, mesh.element_count()); ++e) {
       std::array<std::int32_t, 192> dof;
       std::array<double, 192> sign;
-      for (std::size_t a = 0; a < 64; ++a)
+      for (std::size_t a = 0; a < nodes; ++a)
         for (std::size_t c = 0; c < 3; ++c) {
           const std::size_t i = 3 * static_cast<std::size_t>(mesh.element_node(e, static_cast<int>(a))) + c;
           dof[3 * a + c] = dof_[i], sign[3 * a + c] = sign_[i];
         }
       const auto& matrix = (*element)[static_cast<std::size_t>(e - 4 * batch)];
-      for (std::size_t j = 0; j < 192; ++j) {
+      for (std::size_t j = 0; j < element_dofs; ++j) {
         if (dof[j] < 0) continue;
-        for (std::size_t i = 0; i < 192; ++i)
-          if (dof[i] >= 0) k.coeffRef(dof[i], dof[j]) += sign[i] * sign[j] * matrix[192 * i + j];
+        for (std::size_t i = 0; i < element_dofs; ++i)
+          if (dof[i] >= 0) k.coeffRef(dof[i], dof[j]) += sign[i] * sign[j] * matrix[element_dofs * i + j];
       }
     }
   }

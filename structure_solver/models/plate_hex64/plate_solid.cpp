@@ -86,11 +86,12 @@ double PlateSolid::rest_step() {
 }
 
 double PlateSolid::rest_step_of(long first) {
+  const Eigen::Index dofs = 3 * mesh_.element_nodes();
   auto k = std::make_unique<std::array<InternalForce::ElementMatrix, 4>>();
   forces_.element_stiffness(state_.u, first / 4, *k);
-  Eigen::Map<Eigen::MatrixXd> matrix((*k)[0].data(), 192, 192);
-  Eigen::VectorXd scale(192);
-  for (int a = 0; a < hex_nodes; ++a)
+  Eigen::Map<Eigen::MatrixXd> matrix((*k)[0].data(), dofs, dofs);
+  Eigen::VectorXd scale(dofs);
+  for (int a = 0; a < mesh_.element_nodes(); ++a)
     scale.segment<3>(3 * a).setConstant(1.0 / std::sqrt(mesh_.element_mass(first, a)));
   const Eigen::MatrixXd scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
@@ -98,7 +99,8 @@ double PlateSolid::rest_step_of(long first) {
 }
 
 Stop PlateSolid::broken(const ForceSums& sums) const {
-  const Vec3 first = mesh_.gauss_position(sums.broken_element, 0), last = mesh_.gauss_position(sums.broken_element, 63);
+  const Vec3 first = mesh_.gauss_position(sums.broken_element, 0),
+             last = mesh_.gauss_position(sums.broken_element, mesh_.element_nodes() - 1);
   const Vec3 centre = 0.5 * (first + last);
   char text[640];
   std::snprintf(

@@ -1,11 +1,12 @@
 #pragma once
-// Internal force of one 64-node hexahedron, or of four side by side (T = Pack4): f = sum_q w_q P(H_q) grad N.
+// Internal force of one hexahedron with N x N x N nodes and Gauss points, or of four side by side (T = Pack4):
+//   f = sum_q w_q P(H_q) grad N
 // Total Lagrangian: gradients and weights belong to the shape at rest.
 //
-// DATA LAYOUT  u, force: T[3][64] (component, node)     history: T[64][Law::fields] (Gauss point, field)
-// gradient: T[3][3][64] (component, direction, point), overwritten in place by the weighted stress: 18 KiB per pack, so
-// that everything a batch touches stays in the first-level cache.
-#include "structure_solver/elements/hex64_geometry.hpp"
+// DATA LAYOUT  u, force: T[3][N^3] (component, node)     history: T[N^3][Law::fields] (Gauss point, field)
+// gradient: T[3][3][N^3] (component, direction, point), overwritten in place by the weighted stress: 18 KiB per pack of
+// the largest element, N = 4, so that everything a batch touches stays in the first-level cache.
+#include "structure_solver/elements/hex_geometry.hpp"
 #include "structure_solver/materials/finite_strain_metal.hpp"
 
 namespace standoff::structure {
@@ -42,8 +43,8 @@ inline void store_history(const PointHistory<T>& s, T* field) {
   if constexpr (Law::x_field >= 0) field[Law::x_field] = s.x;
 }
 
-template <class T>
-inline Mat3<T> load_gradient(const T (&gradient)[3][3][hex_points], int q) {
+template <class T, std::size_t Points>
+inline Mat3<T> load_gradient(const T (&gradient)[3][3][Points], int q) {
   Mat3<T> h;
   for (int i = 0; i < 3; ++i)
     for (int d = 0; d < 3; ++d) h.m[i][d] = gradient[i][d][q];
@@ -52,12 +53,14 @@ inline Mat3<T> load_gradient(const T (&gradient)[3][3][hex_points], int q) {
 
 /// Force at displacement u from the history, which is written only if `commit`.
 template <class Law, class T, class Geometry>
-inline ElementSums<T> hex64_force(const MetalParameters& metal, const Geometry& geometry, const PointStep& step,
-                                  bool commit, const T (&u)[3][hex_nodes], T* history, T (&force)[3][hex_nodes]) {
-  T gradient[3][3][hex_points];
-  for (int c = 0; c < 3; ++c) hex64_gradient(u[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+inline ElementSums<T> hex_force(const MetalParameters& metal, const Geometry& geometry, const PointStep& step,
+                                bool commit, const T (&u)[3][Geometry::nodes], T* history,
+                                T (&force)[3][Geometry::nodes]) {
+  constexpr int N = Geometry::per_edge, points = Geometry::nodes;
+  T gradient[3][3][points];
+  for (int c = 0; c < 3; ++c) hex_gradient<N>(u[c], gradient[c][0], gradient[c][1], gradient[c][2]);
   ElementSums<T> sums{T(0.0), T(0.0), Lanes<T>::all_true()};
-  for (int q = 0; q < hex_points; ++q) {
+  for (int q = 0; q < points; ++q) {
     T* const fields = history + q * Law::fields;
     PointHistory<T> s = load_history<Law>(metal, fields);
     const Mat3<T> h = geometry.reference_gradient(q, load_gradient(gradient, q));
@@ -72,7 +75,7 @@ inline ElementSums<T> hex64_force(const MetalParameters& metal, const Geometry& 
     for (int i = 0; i < 3; ++i)
       for (int d = 0; d < 3; ++d) gradient[i][d][q] = t.m[i][d];
   }
-  for (int c = 0; c < 3; ++c) hex64_gradient_transpose(gradient[c][0], gradient[c][1], gradient[c][2], force[c]);
+  for (int c = 0; c < 3; ++c) hex_gradient_transpose<N>(gradient[c][0], gradient[c][1], gradient[c][2], force[c]);
   return sums;
 }
 
