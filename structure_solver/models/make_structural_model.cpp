@@ -3,6 +3,7 @@
 #include "structure_solver/models/pipe_hex64/pipe_hex64.hpp"
 #include "structure_solver/models/plate_hex27/plate_hex27.hpp"
 #include "structure_solver/models/plate_hex64/plate_hex64.hpp"
+#include "structure_solver/models/plate_hex8/plate_hex8.hpp"
 #include "structure_solver/models/plate_shell/plate_shell.hpp"
 #include "structure_solver/models/rigid_plate/rigid_plate.hpp"
 #include "structure_solver/models/single_dof/single_dof.hpp"
@@ -24,6 +25,10 @@ constexpr Entry registry[] = {
     {"plate_hex27",
      [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
        return std::make_unique<PlateHex27>(spec, threads);
+     }},
+    {"plate_hex8",
+     [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {
+       return std::make_unique<PlateHex8>(spec, threads);
      }},
     {"plate_shell",
      [](const CaseSpec& spec, int threads) -> std::unique_ptr<StructuralModel> {

@@ -1,12 +1,13 @@
 #pragma once
 // Definition behind batch_kernels.hpp; included only by the files that instantiate it.
 #include "structure_solver/step/batch_kernels.hpp"
+#include "structure_solver/step/hex8_force.hpp"
 
 namespace standoff::structure {
 
 template <int N, class Law, bool Curved>
 BatchSums batch_kernel(const MetalParameters& metal, const BatchShape& shape, const PointStep& step, bool commit,
-                       const Vec3* u, const std::int32_t* nodes, Pack4* history, Pack4* force) {
+                       const Vec3* u, const std::int32_t* nodes, Pack4* history, Pack4* alpha, Pack4* force) {
   constexpr int count = N * N * N;
   Pack4 local[3][count];
   for (int a = 0; a < count; ++a) {
@@ -19,7 +20,9 @@ BatchSums batch_kernel(const MetalParameters& metal, const BatchShape& shape, co
   auto& out = *reinterpret_cast<Pack4(*)[3][count]>(force);
   ElementSums<Pack4> sums;
   static_assert(N == 4 || !Curved, "only pipe_hex64 is curved");
-  if constexpr (Curved) {
+  if constexpr (N == 2) {
+    sums = hex8_force<Law>(metal, BoxGeometryOf<2>::of_box(shape.box), step, commit, local, history, *alpha, out);
+  } else if constexpr (Curved) {
     turn(shape.cosine, shape.sine, local);
     sums = hex_force<Law>(metal, *shape.curved, step, commit, local, history, out);
     turn(shape.cosine, -shape.sine, out);
@@ -38,6 +41,7 @@ BatchSums batch_kernel(const MetalParameters& metal, const BatchShape& shape, co
 template <class Law>
 KernelChoice choice_of(ElementKind kind) {
   const BatchKernel kernel = kind.curved                ? &batch_kernel<4, Law, true>
+                             : kind.nodes_per_edge == 2 ? &batch_kernel<2, Law, false>
                              : kind.nodes_per_edge == 3 ? &batch_kernel<3, Law, false>
                                                         : &batch_kernel<4, Law, false>;
   return {

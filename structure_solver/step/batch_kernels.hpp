@@ -44,9 +44,10 @@ inline void turn(const Pack4& cosine, const Pack4& sine, Pack4 (&field)[3][hex_n
   }
 }
 
-/// nodes[4 * local + lane] -> displacement u; force[count * component + local] of an element with `count` nodes.
+/// nodes[4 * local + lane] -> displacement u; force[count * component + local] of an element with `count` nodes; alpha:
+/// the enhanced strain of elements with 8 nodes, null otherwise.
 using BatchKernel = BatchSums (*)(const MetalParameters&, const BatchShape&, const PointStep&, bool commit,
-                                  const Vec3* u, const std::int32_t* nodes, Pack4* history, Pack4* force);
+                                  const Vec3* u, const std::int32_t* nodes, Pack4* history, Pack4* alpha, Pack4* force);
 
 /// Which element of the family.
 struct ElementKind {

@@ -40,6 +40,7 @@ InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal
   sums_.resize(static_cast<std::size_t>(count));
   nodes_.resize(sums_.size() * 4 * count_);
   shape_batches();
+  if (mesh.per_edge() == 2) enhanced_.assign(sums_.size(), Pack4(0.0));
   buffer_.resize(sums_.size() * 3 * count_);
   node_begin_.assign(mesh.node_count() + 1, 0);
   for (long e = 0; e < 4 * count; ++e)
@@ -96,7 +97,7 @@ ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t b = 0; b < count; ++b)
     sums_[b] = choice_.kernel(metal_, shapes_[b], step, commit, u.data(), &nodes_[b * 4 * count_],
-                              history_.data() + b * history_stride, &buffer_[b * 3 * count_]);
+                              history_.data() + b * history_stride, alpha_of(b), &buffer_[b * 3 * count_]);
   ForceSums total;
   const long elements = mesh_.element_count();
   for (long e = 0; e < elements; ++e) {
@@ -130,7 +131,7 @@ void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::
   auto force_at = [&](std::size_t node, double Vec3::*component, double shift, std::vector<Pack4>& f) {
     const auto saved = local;
     for (std::size_t i = 0; i < 4; ++i) local[4 * node + i].*component += shift;
-    choice_.kernel(metal_, shapes_[b], {0.0, false}, false, local.data(), own.data(), history, f.data());
+    choice_.kernel(metal_, shapes_[b], {0.0, false}, false, local.data(), own.data(), history, alpha_of(b), f.data());
     local = saved;
   };
   double Vec3::*const components[3] = {&Vec3::x, &Vec3::y, &Vec3::z};

@@ -53,15 +53,19 @@ class InternalForce {
   }
   /// The shape at rest of element e.
   const BatchShape& shape(long e) const { return shapes_[static_cast<std::size_t>(e / 4)]; }
+  /// Committed enhanced strain of an element with 8 nodes.
+  double enhanced_strain(long e) const {
+    return lane(enhanced_[static_cast<std::size_t>(e / 4)], static_cast<int>(e % 4));
+  }
   /// Gauss points of an element; as many as nodes.
   int points() const { return static_cast<int>(count_); }
   const HistoryLayout& layout() const { return choice_.layout; }
   const MetalParameters& metal() const { return metal_; }
-  std::size_t history_bytes() const { return history_.size() * sizeof(Pack4); }
+  std::size_t history_bytes() const { return (history_.size() + enhanced_.size()) * sizeof(Pack4); }
   void add_to(StateHash& hash) const;
   template <class Archive>
   void archive(Archive& a) {
-    a(history_);  // forces of the elements are made anew each step
+    a(history_, enhanced_);  // forces of the elements are made anew each step
   }
 
   /// [3 a + i][3 b + j], symmetric, rows of 3 points() numbers: room for the largest element.
@@ -74,6 +78,7 @@ class InternalForce {
 
  private:
   void shape_batches();
+  Pack4* alpha_of(std::size_t batch) { return enhanced_.empty() ? nullptr : &enhanced_[batch]; }
   template <class Geometry>
   double worst_shape(const Geometry& geometry, std::size_t batch, std::span<const Vec3> u) const;
 
@@ -87,6 +92,7 @@ class InternalForce {
   std::ptrdiff_t component_stride_;  // in the buffer, counted in numbers
   std::vector<std::int32_t> nodes_;  // [batch][4 local + lane]
   std::vector<Pack4> history_, buffer_;
+  std::vector<Pack4> enhanced_;                        // [batch] alpha of elements with 8 nodes, empty otherwise
   std::vector<BatchSums> sums_;                        // per batch
   std::vector<std::int32_t> node_begin_, node_entry_;  // contributions of each node, in element order
 };

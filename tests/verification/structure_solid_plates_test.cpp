@@ -1,6 +1,8 @@
 // The solid plates beside plate_hex64. First frequency of the clamped plate against Kirchhoff's 175.84 Hz
-// (structure_plate_frequency_test.cpp): measured from above and asserted to the next half per cent.
-//   plate_hex27   +2.5 % at 10 x 10, +0.71 % at 20 x 20: three times the error of cubic elements, fourth order
+// (structure_plate_frequency_test.cpp), at 10 x 10 and 20 x 20 elements of the case:
+//   plate_hex27   +2.5 %, +0.71 %: from above, three times the error of cubic elements
+//   plate_hex8    -0.01 % (30 x 30 bricks), 60 x 60 in the same tenth of a per cent: bending is cured, so that what is
+//                 left is the coarse shape of the mode, of either sign
 // Same bits for one and two threads: by construction. An element that turns inside out ends the run.
 #include <gtest/gtest.h>
 
@@ -22,11 +24,11 @@ struct Solid {
 
 class SolidPlate : public ::testing::TestWithParam<Solid> {};
 
-TEST_P(SolidPlate, ClampedFirstFrequency_ConvergesFromAbove) {
+TEST_P(SolidPlate, ClampedFirstFrequency_ConvergesToKirchhoff) {
   const double coarse = first_frequency(*solid_plate(GetParam().name, 10, true)) / 175.84 - 1.0;
   const double fine = first_frequency(*solid_plate(GetParam().name, 20, true)) / 175.84 - 1.0;
-  EXPECT_TRUE(coarse > 0.0 && coarse < GetParam().at_ten) << coarse;
-  EXPECT_TRUE(fine > 0.0 && fine < GetParam().at_twenty) << fine;
+  EXPECT_LT(std::fabs(coarse), GetParam().at_ten) << coarse;
+  EXPECT_LT(std::fabs(fine), GetParam().at_twenty) << fine;
 }
 
 TEST_P(SolidPlate, OneAndTwoThreads_GiveTheSameBits) {
@@ -34,7 +36,7 @@ TEST_P(SolidPlate, OneAndTwoThreads_GiveTheSameBits) {
   for (const int threads : {1, 2}) {
     const auto model = solid_plate(GetParam().name, 12, false, threads);
     testing::give_impulse(*model, 130.0);
-    for (int i = 0; i < 40; ++i) model->step(model->stable_step());
+    while (model->time() < 60e-6) model->step(model->stable_step());
     EXPECT_EQ(model->plate().threads(), threads);
     EXPECT_GT(model->extremes().max_plastic_strain, 0.0) << "the load was meant to make it flow";
     StateHash state;
@@ -63,7 +65,9 @@ TEST_P(SolidPlate, InvertedElement_EndsTheRunAndTheFrameIsSound) {
     for (const double value : values) EXPECT_TRUE(std::isfinite(value)) << name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, SolidPlate, ::testing::Values(Solid{"plate_hex27", 0.03, 0.01, 72, 27}),
+INSTANTIATE_TEST_SUITE_P(Models, SolidPlate,
+                         ::testing::Values(Solid{"plate_hex27", 0.03, 0.01, 72, 27},
+                                           Solid{"plate_hex8", 0.003, 0.003, 12, 8}),
                          [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace

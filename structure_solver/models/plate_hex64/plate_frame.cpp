@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "structure_solver/elements/hex8.hpp"
 #include "structure_solver/mesh/vtk_hexahedron.hpp"
 #include "structure_solver/models/plate_hex64/plate_probes.hpp"
 
@@ -38,7 +39,7 @@ struct CellValues {
 template <int N>
 using Nodal = double[3][N * N * N];
 template <int N>
-using Gradients = double[3][3][N * N * N];
+using PointGradients = std::array<Mat3<double>, N * N * N>;  // du/dX at the Gauss points
 
 /// Angle about z into the frame in which an element of a pipe is computed.
 struct Turn {
@@ -56,14 +57,22 @@ struct Turn {
 };
 
 template <int N>
-void gradients_of(const PlateMesh& mesh, const std::vector<Vec3>& field, long e, const Turn& turn,
-                  Gradients<N>& gradient) {
-  Nodal<N> nodal;
+void nodal_values(const PlateMesh& mesh, const std::vector<Vec3>& field, long e, const Turn& turn, Nodal<N>& nodal) {
   for (int a = 0; a < N * N * N; ++a) {
     const Vec3 v = turn.in(field[static_cast<std::size_t>(mesh.element_node(e, a))]);
     nodal[0][a] = v.x, nodal[1][a] = v.y, nodal[2][a] = v.z;
   }
-  for (int c = 0; c < 3; ++c) hex_gradient<N>(nodal[c], gradient[c][0], gradient[c][1], gradient[c][2]);
+}
+
+template <class Geometry>
+PointGradients<Geometry::per_edge> gradients_of(const Geometry& geometry, const Nodal<Geometry::per_edge>& nodal) {
+  double parametric[3][3][Geometry::nodes];
+  for (int c = 0; c < 3; ++c)
+    hex_gradient<Geometry::per_edge>(nodal[c], parametric[c][0], parametric[c][1], parametric[c][2]);
+  PointGradients<Geometry::per_edge> h;
+  for (int q = 0; q < Geometry::nodes; ++q)
+    h[static_cast<std::size_t>(q)] = geometry.reference_gradient(q, load_gradient(parametric, q));
+  return h;
 }
 
 /// Cauchy stress: (2 G dev eps + K (tr eps - 3 alpha (T - Tr)) I) / J of the elastic logarithmic strain eps.
@@ -111,25 +120,30 @@ CellValues cell_values(const PlateSolid& plate, long e, const Geometry& geometry
   const PlateMesh& mesh = plate.mesh();
   const InternalForce& forces = plate.forces();
   const Turn turn{std::cos(mesh.angle_to_first(e)), std::sin(mesh.angle_to_first(e))};
-  Gradients<Geometry::per_edge> moved, moving;
-  gradients_of<Geometry::per_edge>(mesh, plate.state().u, e, turn, moved);
-  gradients_of<Geometry::per_edge>(mesh, plate.state().v, e, turn, moving);
+  constexpr int N = Geometry::per_edge;
+  Nodal<N> u, velocity;
+  nodal_values<N>(mesh, plate.state().u, e, turn, u);
+  nodal_values<N>(mesh, plate.state().v, e, turn, velocity);
+  const PointGradients<N> moved = gradients_of(geometry, u), moving = gradients_of(geometry, velocity);
+  PointGradients<N> strained = moved;  // what the metal feels
+  if constexpr (N == 2) strained = hex8_gradients(u, geometry.scale, forces.enhanced_strain(e));
   CellValues v;
   for (int q = 0; q < Geometry::nodes; ++q) {
     const double share = geometry.weight(q) / volume;
-    const Mat3<double> h = geometry.reference_gradient(q, load_gradient(moved, q));
+    const auto i = static_cast<std::size_t>(q);
+    const Mat3<double>& h = strained[i];
     const Mat3<double> f = deformation_gradient(h), c = cofactor(f);
     const double j = rows(f, 0, c, 0), strain = forces.plastic_strain(e, q);
     const Sym3<double> s = cauchy_stress(forces, e, q, h, j);
     v.strain += share * strain, v.max_strain = std::max(v.max_strain, strain);
     v.temperature += share * forces.temperature(e, q);
-    v.strain_rate += share * equivalent_rate(geometry.reference_gradient(q, load_gradient(moving, q)), c, j);
+    v.strain_rate += share * equivalent_rate(moving[i], c, j);
     v.von_mises += share * von_mises(s);
     v.stress.xx += share * s.xx, v.stress.yy += share * s.yy, v.stress.zz += share * s.zz;
     v.stress.xy += share * s.xy, v.stress.yz += share * s.yz, v.stress.zx += share * s.zx;
     // Height of the deformed element over its reference mid-plane: 2 / |F^-T g|, g = dxi_2 / dX.
     const Vec3 g = geometry.direction(q, 2);
-    const auto along = [&](int i) { return c.m[i][0] * g.x + c.m[i][1] * g.y + c.m[i][2] * g.z; };
+    const auto along = [&](int k) { return c.m[k][0] * g.x + c.m[k][1] * g.y + c.m[k][2] * g.z; };
     v.thickness += share * 2.0 * j / norm(Vec3{along(0), along(1), along(2)});
   }
   v.stress = turn.back(v.stress);
@@ -166,6 +180,7 @@ std::vector<Column> columns(const HistoryLayout& layout) {
 StructureFrame plate_frame(const PlateSolid& plate) {
   const PlateMesh& mesh = plate.mesh();
   StructureFrame frame;
+  if (mesh.order() == 1) frame.vtk_cell_type = 12;
   frame.displacement = resample(mesh, plate.state().u);
   frame.velocity = resample(mesh, plate.state().v);
   frame.position = resample(mesh, mesh.position);
