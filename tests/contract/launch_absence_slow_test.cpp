@@ -1,4 +1,4 @@
-// Law: what is off is not there. With friction or air off, the loop that the scene composes executes the
+// Law: what is off is not there. With friction, air or heating off, the loop that the scene composes executes the
 // instructions of a loop written by hand without them, to 1 % (the list of stages and their timers cost a few hundred
 // instructions a step, of millions), and ends in the same bits. With the effect on, the count is higher by more than
 // that: the measurement would notice. Instructions are counted by callgrind, so the clock does not matter.
@@ -102,6 +102,30 @@ TEST_F(Absence, FrictionOff_IsALoopThatNeverKnewIt) {
 
 TEST_F(Absence, AirOff_IsALoopThatNeverKnewIt) {
   compare("absence_particles", "air", particles_case("off", "off", 800), particles_case("off", "on", 800));
+}
+
+std::string plate_case(const std::string& heating) {
+  return R"([charge]
+explosive = "c4"
+mass = "150 g"
+[plate]
+material = "al6xn"
+size = ["100 mm", "100 mm", "3.4 mm"]
+elements = [4, 4, 1]
+edges = "free"
+[run]
+stand_off = "150 mm"
+settle = false
+symmetry = "none"
+[effects]
+strain_rate = "on"
+expansion = "off"
+heating = ")" +
+         heating + "\"\n";
+}
+
+TEST_F(Absence, HeatingOff_IsALoopThatNeverKnewIt) {
+  compare("absence_plate", "heating", plate_case("off"), plate_case("on"));
 }
 
 }  // namespace
