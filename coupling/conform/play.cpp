@@ -31,14 +31,14 @@ SurfaceMesh flat_plate(const CaseSpec& spec) {
   return mesh;
 }
 
-/// The right-hand normals must point to the charge.
-void check_normals(const SurfaceMesh& mesh) {
+/// The right-hand normals must point to the charge, before a plate as in a pipe.
+void check_normals(const SurfaceMesh& mesh, const Vec3& charge) {
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
     const auto& c = mesh.quads[q];
     const auto at = [&](std::size_t corner) { return mesh.position[static_cast<std::size_t>(c[corner])]; };
-    const Vec3 a = at(2) - at(0), b = at(3) - at(1);
-    if (!(a.x * b.y - a.y * b.x > 0.0))
-      throw RuleBroken(fmt::format("quad {} is clockwise or empty seen from the charge (+z)", q));
+    const Vec3 normal = cross(at(2) - at(0), at(3) - at(1));
+    if (!(dot(normal, charge - 0.25 * (at(0) + at(1) + at(2) + at(3))) > 0.0))
+      throw RuleBroken(fmt::format("quad {} is clockwise or empty seen from the charge", q));
   }
 }
 
@@ -73,7 +73,7 @@ void Play::surface() {
     }
     if (digest != surface.digest)
       throw RuleBroken(fmt::format("SURFACE says digest {}, its fields give {}", surface.digest, digest));
-    check_normals(mesh);
+    check_normals(mesh, {0.0, 0.0, subject.spec.run.stand_off});
   } else {
     mesh = flat_plate(subject.spec);
     const Payload payload = to_fields(mesh);
