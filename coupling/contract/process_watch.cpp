@@ -9,12 +9,14 @@
 namespace standoff {
 namespace {
 
-volatile sig_atomic_t noted_signal = 0;
+std::atomic<int> noted_signal{0};  // the first; written by the handler, read by every thread
+static_assert(std::atomic<int>::is_always_lock_free, "what a signal handler may touch");
 std::atomic<pid_t> parent{0};  // 0: not watched
 std::atomic<bool> saving{false};
 
 extern "C" void note_signal(int number) {
-  if (noted_signal == 0) noted_signal = number;
+  int none = 0;
+  noted_signal.compare_exchange_strong(none, number);
 }
 
 }  // namespace
