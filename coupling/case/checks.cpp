@@ -226,6 +226,13 @@ class SceneCheck {
           p.elements[0] % 4 != 0, mesh,
           fmt::format("{} elements round the pipe do not fill four equal quarters", p.elements[0]),
           "elements are counted round the full pipe, along it and through its wall: make the first a multiple of 4");
+    const int layer =
+        p.elements[0] / 4 * p.elements[1];  // of a quarter; four elements of one layer are computed at once
+    if (usable(mesh))
+      finding(
+          p.elements[2] > 1 && layer % 4 != 0, mesh,
+          fmt::format("{} elements in a layer of the quarter do not fill fours", layer),
+          "with several elements through the wall, a quarter of those round times those along must be a multiple of 4");
     finding(!spec_.run.quarter_symmetry, {"run.symmetry", "plate.model"}, "a pipe is computed as a quarter",
             "run.symmetry = \"quarter\"");
     finding(spec_.soil.kind != SoilKind::none, {"soil.kind", "plate.model"}, "a pipe holds no sand",

@@ -151,12 +151,13 @@ class Completion {
     derive("plate.surround", std::string("open"), "a pipe stands free");
     derive("plate.edges", std::string("free"), "a pipe stands free");
     derive("run.settle", false, "a pipe stands free");
+    if (good("plate.pipe.length"))
+      derive("run.stand_off", 0.5 * s_.number("plate.pipe.length"), "half the length of the pipe");
     if (!good({"plate.pipe.inner_diameter", "plate.pipe.wall", "plate.pipe.length"})) return;
     const double wall = s_.number("plate.pipe.wall"), length = s_.number("plate.pipe.length");
     s_.forget("plate.size");
     derive("plate.size", Triple{std::numbers::pi * (s_.number("plate.pipe.inner_diameter") + wall), length, wall},
            "the wall unrolled");
-    derive("run.stand_off", 0.5 * length, "half the length of the pipe");
   }
 
   void charge_geometry() {
@@ -275,11 +276,13 @@ class Completion {
       require_body();
       require_soil();
     }
+    if (is_pipe_)
+      for (const char* path : {"plate.size", "run.stand_off"})  // they follow from the shape of the pipe
+        if (!s_.has(path)) s_.mark_wrong(path);
     if (has_charge_ || has_soil_) require("run.stand_off");
     if (is_pipe_)
       for (const char* key : {"inner_diameter", "wall", "length"})
         require(std::string("plate.pipe.") + key, "model = \"pipe_hex64\" is a pipe");
-    if (is_pipe_ && !s_.has("plate.size")) s_.mark_wrong("plate.size");
     require("plate.size");
     if (s_.word("plate.edges") == "bolted") require("plate.opening", "a frame on both faces has an opening");
     if (s_.is_wrong("plate.material.preset")) return;

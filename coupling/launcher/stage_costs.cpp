@@ -20,7 +20,8 @@ void take_process(const OrderedJson& timing, const std::string& key, std::vector
     for (const auto& [stage, seconds] : stages->items())
       if (seconds.is_number()) times.push_back({key, stage, seconds.get<double>()});
   for (const char* other : {"exchange", "wait"})
-    if (const auto seconds = process->find(std::string(other) + "_s"); seconds != process->end())
+    if (const auto seconds = process->find(std::string(other) + "_s");
+        seconds != process->end() && seconds->is_number())
       times.push_back({key, other, seconds->get<double>()});
 }
 

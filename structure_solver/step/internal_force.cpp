@@ -113,6 +113,8 @@ void InternalForce::add_to(StateHash& hash) const {
   for (long e = 0; e < mesh_.element_count(); ++e)
     for (int q = 0; q < points(); ++q)
       for (int f = 0; f < choice_.layout.fields; ++f) hash.add(history(e, q, f));
+  if (enhanced_.empty()) return;
+  for (long e = 0; e < mesh_.element_count(); ++e) hash.add(enhanced_strain(e));
 }
 
 void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::array<ElementMatrix, 4>& out) {
