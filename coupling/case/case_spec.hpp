@@ -121,7 +121,7 @@ struct PlateSpec {
   PipeSpec pipe;
   Vec3 size;                               // m: width x, width y, thickness; of a pipe: its wall unrolled
   std::array<int, 3> elements{10, 10, 1};  // full plate; of a pipe: round, along, through the wall
-  std::string edges = "clamped";           // "clamped" | "pinned" | "free" | "bolted"
+  std::string edges = "clamped";           // "clamped" | "pinned" | "free" | "symmetry" | "bolted"
   double opening = 0.0;                    // m, side of the square opening of a frame; with "bolted"
   std::string surround = "rigid";          // "rigid" | "open"
   double surround_size = 0.613;            // m, side of the square cover plate

@@ -213,9 +213,11 @@ class SceneCheck {
                           mm(p.size.y)),
               "size is that of the whole plate, rim included; the opening is the part that can bulge");
     const Paths rest{"plate.edges", "run.settle"};
+    const bool flies = p.edges == "free" || (p.edges == "symmetry" && !p.is_pipe());
     if (usable(rest))
-      finding(p.edges == "free" && p.model != "rigid_plate" && spec_.run.settle, rest,
-              "a free plate flies on and never comes to rest", "run.settle = false ends the run while it moves");
+      finding(flies && p.model != "rigid_plate" && spec_.run.settle, rest,
+              fmt::format("a plate with edges = \"{}\" flies on and never comes to rest", p.edges),
+              "run.settle = false ends the run while it moves");
   }
 
   void pipe() {
@@ -233,6 +235,9 @@ class SceneCheck {
           p.elements[2] > 1 && layer % 4 != 0, mesh,
           fmt::format("{} elements in a layer of the quarter do not fill fours", layer),
           "with several elements through the wall, a quarter of those round times those along must be a multiple of 4");
+    finding(p.edges == "pinned" || p.edges == "bolted", {"plate.edges", "plate.model"},
+            fmt::format("the ends of a pipe are not held by edges = \"{}\"", p.edges),
+            "free, clamped, or symmetry: no motion along the axis");
     finding(!spec_.run.quarter_symmetry, {"run.symmetry", "plate.model"}, "a pipe is computed as a quarter",
             "run.symmetry = \"quarter\"");
     finding(spec_.soil.kind != SoilKind::none, {"soil.kind", "plate.model"}, "a pipe holds no sand",

@@ -196,9 +196,10 @@ constexpr KeyEntry entries[] = {
      "",
      "[10, 10, 1]",
      "Elements of the full plate along x, y and through the thickness; usually set by the level."},
-    {"plate.edges", choice, quantity::none, any, "clamped|pinned|free|bolted", "clamped",
-     "How the edges are held: not moving at all, free to turn but not to slide, free, or bolted in a frame on both "
-     "faces.",
+    {"plate.edges", choice, quantity::none, any, "clamped|pinned|free|symmetry|bolted", "clamped",
+     "How the edges are held: not moving at all, free to turn but not to slide, free, mirror planes along which they "
+     "slide, or bolted in a frame on both faces. The ends of a pipe: free (its default), clamped, or symmetry, which "
+     "keeps its length (plane strain).",
      "[Borvik 2011, sec. 2]"},
     {"plate.opening", KeyKind::quantity, quantity::length, positive, "", "",
      "Side of the square opening of the frame, with edges = \"bolted\": beyond it both faces of the plate are held."},

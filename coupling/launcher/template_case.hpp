@@ -27,7 +27,7 @@ outer_radius = "76.2 mm"
 model = "plate_hex64"          # `standoff models`
 material = "al6xn"             # `standoff presets`; or a table of constants of your own
 size = ["406 mm", "406 mm", "3.4 mm"]
-edges = "clamped"              # or "pinned", "free", "bolted"
+edges = "clamped"              # or "pinned", "free", "symmetry", "bolted"
 surround = "rigid"             # the cover plate around it; or "open"
 
 [run]

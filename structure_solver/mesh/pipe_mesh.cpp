@@ -11,6 +11,9 @@ void check(const PipeMeshOptions& o) {
   if (!(o.inner_diameter > 0.0 && o.wall > 0.0 && o.length > 0.0))
     throw Stop(ExitCode::bad_case,
                "plate.pipe: inner diameter, wall and length must be longer than zero\n  state all three");
+  if (o.ends != "free" && o.ends != "clamped" && o.ends != "symmetry")
+    throw Stop(ExitCode::bad_case, "plate.edges = \"" + o.ends + "\" does not exist for the ends of a pipe\n" +
+                                       "  edges here: free, clamped, symmetry");
   if (o.elements[0] % 4 != 0)
     throw Stop(ExitCode::bad_case, "plate.elements: " + std::to_string(o.elements[0]) +
                                        " elements round the pipe do not fill four equal quarters\n"
@@ -21,6 +24,13 @@ void check(const PipeMeshOptions& o) {
                "be a multiple of 4\n  change the number round the pipe or along it");
 }
 
+void hold_ends(PlateMesh& mesh, const std::string& ends) {
+  const auto held = static_cast<std::uint8_t>(ends == "clamped" ? fixed_all : ends == "symmetry" ? fixed_z : 0);
+  for (int k = 0; k < mesh.nodes[2]; ++k)
+    for (const int j : {0, mesh.nodes[1] - 1})
+      for (int i = 0; i < mesh.nodes[0]; ++i) mesh.fixed[static_cast<std::size_t>(mesh.node(i, j, k))] |= held;
+}
+
 }  // namespace
 
 PlateMesh make_pipe_mesh(const PipeMeshOptions& o) {
@@ -29,6 +39,7 @@ PlateMesh make_pipe_mesh(const PipeMeshOptions& o) {
   PlateMesh mesh = make_plate_mesh(
       {{0.25 * round, o.length, o.wall}, {o.elements[0] / 4, o.elements[1], o.elements[2]}, false, "free", o.density});
   const Vec3 corner = mesh.lower;
+  mesh.options.edges = o.ends;
   mesh.options.size.x = round, mesh.options.elements = o.elements, mesh.options.quarter = true;
   mesh.lower.x = mesh.lower.y = 0.0;
   mesh.bend = middle;
@@ -40,6 +51,7 @@ PlateMesh make_pipe_mesh(const PipeMeshOptions& o) {
       mesh.position[first].x = 0.0, mesh.position[last].y = 0.0;  // exactly on the mirror planes
       mesh.fixed[first] |= fixed_x, mesh.fixed[last] |= fixed_y;
     }
+  hold_ends(mesh, o.ends);
   for (int k = 0; k < mesh.nodes[2]; ++k)
     for (int j = 0; j < mesh.nodes[1]; ++j)
       for (int i = 0; i < mesh.nodes[0]; ++i)

@@ -46,6 +46,8 @@ void hold_column(PlateMesh& mesh, int i, int j) {
   unsigned through = mirror_planes(mesh, i, j), on_faces = 0;
   if (edges == "clamped" && (rim.x || rim.y)) through |= fixed_all;
   if (edges == "pinned") through |= held_when_pinned(rim);
+  if (edges == "symmetry" && rim.x) through |= fixed_x;
+  if (edges == "symmetry" && rim.y) through |= fixed_y;
   if (edges == "bolted") {
     const Vec3& at = mesh.position[static_cast<std::size_t>(mesh.node(i, j, 0))];
     const double rounding = 1e-9 * mesh.edge.x;
@@ -76,9 +78,9 @@ double free_half_width(const PlateMesh& mesh, int axis) {
 
 void hold_edges(PlateMesh& mesh) {
   const std::string& edges = mesh.options.edges;
-  if (edges != "clamped" && edges != "pinned" && edges != "free" && edges != "bolted")
+  if (edges != "clamped" && edges != "pinned" && edges != "free" && edges != "symmetry" && edges != "bolted")
     throw Stop(ExitCode::bad_case, "plate.edges = \"" + edges + "\" does not exist for solid elements\n" +
-                                       "  edges here: clamped, pinned, free, bolted");
+                                       "  edges here: clamped, pinned, free, symmetry, bolted");
   mesh.fixed.assign(mesh.node_count(), 0);
   for (int j = 0; j < mesh.nodes[1]; ++j)
     for (int i = 0; i < mesh.nodes[0]; ++i) hold_column(mesh, i, j);

@@ -25,7 +25,7 @@ struct PlateMeshOptions {
   Vec3 size;                               // m, full plate: width x, width y, thickness
   std::array<int, 3> elements{10, 10, 1};  // full plate
   bool quarter = true;
-  std::string edges = "clamped";  // "clamped" | "pinned" | "free" | "bolted"; see plate_edges.hpp
+  std::string edges = "clamped";  // "clamped" | "pinned" | "free" | "symmetry" | "bolted": plate_edges.hpp
   double density = 0.0;           // kg/m3
   double opening = 0.0;           // m, side of the square opening of a frame that bolts the plate
   int nodes_per_edge = 4;         // of an element: 2, 3 or 4

@@ -55,11 +55,12 @@ std::vector<double> effective_widths(const LineBasis& basis, int elements, doubl
   return result;
 }
 
-/// Which element nodes along an axis are held: `at(i)` is the node index in the mesh.
+/// Which element nodes along an axis are held against the load: `at(i)` is the node index in the mesh.
 template <class At>
 std::vector<bool> held_line(const PlateMesh& mesh, int count, const At& at) {
+  const unsigned normal = mesh.bent() ? fixed_x | fixed_y : fixed_z;
   std::vector<bool> held;
-  for (int i = 0; i < count; ++i) held.push_back((mesh.fixed[static_cast<std::size_t>(at(i))] & fixed_z) != 0);
+  for (int i = 0; i < count; ++i) held.push_back((mesh.fixed[static_cast<std::size_t>(at(i))] & normal) == normal);
   return held;
 }
 

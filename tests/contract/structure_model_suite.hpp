@@ -18,7 +18,7 @@ inline CaseSpec model_case(const std::string& name, bool quarter = true, const c
     spec.plate.elements = {16, 4, 1};
   }
   spec.plate.model = name;
-  spec.plate.edges = edges;
+  spec.plate.edges = spec.plate.is_pipe() ? "free" : edges;
   spec.run.until = 1e-3;
   return spec;
 }

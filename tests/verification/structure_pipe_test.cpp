@@ -17,7 +17,7 @@ namespace {
 
 CaseSpec pipe_case(const PipeSpec& pipe, std::array<int, 3> elements, double yield) {
   CaseSpec spec = plate_case(4, true, yield);
-  spec.plate.model = "pipe_hex64";
+  spec.plate.model = "pipe_hex64", spec.plate.edges = "free";
   spec.plate.pipe = pipe;
   spec.plate.elements = elements;
   spec.plate.size = {M_PI * (pipe.inner_diameter + pipe.wall), pipe.length, pipe.wall};

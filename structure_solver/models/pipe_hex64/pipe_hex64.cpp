@@ -11,8 +11,8 @@ PlateMesh mesh_of(const CaseSpec& spec) {
   if (!spec.run.quarter_symmetry)
     throw Stop(ExitCode::bad_case,
                "plate.model = \"pipe_hex64\" is computed as a quarter\n  run.symmetry = \"quarter\"");
-  return make_pipe_mesh(
-      {pipe.inner_diameter, pipe.wall, pipe.length, spec.plate.elements, spec.plate.material.density});
+  return make_pipe_mesh({pipe.inner_diameter, pipe.wall, pipe.length, spec.plate.elements, spec.plate.material.density,
+                         spec.plate.edges});
 }
 
 /// Share of the circumference that each node of a line round the wall stands for: the lumped masses, sum 1.

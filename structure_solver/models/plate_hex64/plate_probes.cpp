@@ -87,7 +87,11 @@ double PlateProbes::to_centre(const Vec3& x) const {
 StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
   StructureExtremes x;
   const double half_x = free_half_width(mesh_, 0), half_y = free_half_width(mesh_, 1);
-  const double margin = std::max(half_x, half_y) / 10.0;  // two elements of a 40 x 40 mesh
+  const double margin = (mesh_.bent() ? half_y : std::max(half_x, half_y)) / 10.0;  // two elements of a 40 x 40 mesh
+  const auto to_edge = [&](const Vec3& at) {
+    if (!mesh_.bent()) return std::min(half_x - std::fabs(at.x), half_y - std::fabs(at.y));
+    return mesh_.options.edges == "clamped" ? half_y - to_centre(at) : 1e300;  // other ends are no clamp
+  };
   double nearest = 1e300;
   for (long e = 0; e < mesh_.element_count(); ++e)
     for (int q = 0; q < forces.points(); ++q) {
@@ -96,9 +100,7 @@ StructureExtremes PlateProbes::extremes(const InternalForce& forces) const {
       x.max_plastic_strain = std::max(x.max_plastic_strain, strain);
       x.max_temperature_rise =
           std::max(x.max_temperature_rise, forces.temperature(e, q) - forces.metal().flow.room_temperature);
-      // A pipe has no clamp: its ends are free.
-      const double to_edge = mesh_.bent() ? 1e300 : std::min(half_x - std::fabs(at.x), half_y - std::fabs(at.y));
-      if (to_edge > margin)
+      if (to_edge(at) > margin)
         x.max_plastic_strain_away_from_clamp = std::max(x.max_plastic_strain_away_from_clamp, strain);
       // The columns of Gauss points next to the axis speak for the centre: their largest value.
       const double distance = to_centre(at);

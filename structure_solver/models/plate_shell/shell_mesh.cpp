@@ -7,9 +7,10 @@ namespace standoff::structure {
 namespace {
 
 void check(const PlateMeshOptions& o) {
-  if (o.edges != "clamped" && o.edges != "pinned" && o.edges != "free")
-    throw Stop(ExitCode::bad_case, "plate.edges = \"" + o.edges + "\" does not exist for shell elements\n" +
-                                       "  edges here: clamped, pinned, free; plate.model = \"plate_hex64\" knows more");
+  if (o.edges != "clamped" && o.edges != "pinned" && o.edges != "free" && o.edges != "symmetry")
+    throw Stop(ExitCode::bad_case,
+               "plate.edges = \"" + o.edges + "\" does not exist for shell elements\n" +
+                   "  edges here: clamped, pinned, free, symmetry; plate.model = \"plate_hex64\" knows more");
   if (o.elements[2] != 1)
     throw Stop(ExitCode::bad_case, "plate.elements: a shell has one element through the thickness, not " +
                                        std::to_string(o.elements[2]) +
@@ -20,9 +21,10 @@ void hold_node(ShellMesh& mesh, int i, int j) {
   const bool whole = !mesh.options.quarter;
   const bool rim_x = i == mesh.nodes[0] - 1 || (whole && i == 0), rim_y = j == mesh.nodes[1] - 1 || (whole && j == 0);
   unsigned moved = 0, slipped = fixed_z;  // a slip has two components
-  if (!whole && i == 0) moved |= fixed_x, slipped |= fixed_x;
-  if (!whole && j == 0) moved |= fixed_y, slipped |= fixed_y;
-  if (mesh.options.edges != "free" && (rim_x || rim_y)) {
+  const bool mirrors = mesh.options.edges == "symmetry";
+  if ((!whole && i == 0) || (mirrors && rim_x)) moved |= fixed_x, slipped |= fixed_x;
+  if ((!whole && j == 0) || (mirrors && rim_y)) moved |= fixed_y, slipped |= fixed_y;
+  if (mesh.options.edges != "free" && !mirrors && (rim_x || rim_y)) {
     const bool turns = mesh.options.edges == "pinned";
     moved = fixed_all;
     if (!turns || rim_y) slipped |= fixed_x;

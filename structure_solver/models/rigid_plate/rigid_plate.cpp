@@ -16,7 +16,7 @@ double plate_mass(const CaseSpec& spec) {
 }  // namespace
 
 RigidPlate::RigidPlate(const CaseSpec& spec)
-    : free_(spec.plate.edges == "free"),
+    : free_(spec.plate.edges == "free" || spec.plate.edges == "symmetry"),
       mass_(plate_mass(spec)),
       stable_step_(spec.plate.size.z / std::sqrt(spec.plate.material.youngs_modulus / spec.plate.material.density)),
       shaped_(
