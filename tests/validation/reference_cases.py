@@ -124,9 +124,17 @@ def judge_paraview(folder):
     series = [folder / "dry/plate/plate.pvd", folder / "dry/particles/particles.pvd"]
     done = subprocess.run(["pvpython", "--force-offscreen-rendering", script, *series], capture_output=True, text=True)
     expect("ParaView opens both series", done.returncode == 0, done.stdout + done.stderr)
-    cells = ROOT / "tests/validation/cubic_cells.py"
-    done = subprocess.run(["pvpython", "--force-offscreen-rendering", cells, series[0]], capture_output=True, text=True)
-    expect("ParaView shows cubic cells in order", done.returncode == 0, done.stdout + done.stderr)
+    cells = ROOT / "tests/validation/solid_cells.py"
+    shown = {64: series[0]}
+    for nodes in (27, 8):
+        out = folder / f"hex{nodes}"
+        run("borvik_2011/bare_150mm", out, "--level", "coarse", "--structure", f"plate_hex{nodes}", "--set", "run.until=100 us",
+            "--set", "run.settle=false")
+        shown[nodes] = out / "plate/plate.pvd"
+    for nodes, plate in shown.items():
+        command = ["pvpython", "--force-offscreen-rendering", cells, plate, str(nodes)]
+        done = subprocess.run(command, capture_output=True, text=True)
+        expect(f"ParaView shows cells of {nodes} points in order", done.returncode == 0, done.stdout + done.stderr)
 
 
 def main():
