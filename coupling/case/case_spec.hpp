@@ -78,6 +78,10 @@ struct AirSpec {
 struct DomainSpec {
   Vec3 lower, upper;  // m; particles that leave are removed and booked
   std::string boundaries = "open";
+  bool closed() const { return boundaries == "reflecting"; }
+  bool repeats() const { return boundaries == "periodic"; }
+  /// Lengths after which the scene repeats, 0 along an axis: it does not.
+  Vec3 period() const { return repeats() ? Vec3{upper.x - lower.x, upper.y - lower.y, 0.0} : Vec3{}; }
   friend bool operator==(const DomainSpec&, const DomainSpec&) = default;
 };
 

@@ -175,9 +175,9 @@ constexpr KeyEntry entries[] = {
      "Lower corner of the box. If nothing is given the box reaches 0.6 m to each side, 0.2 m behind the loaded face "
      "and 0.8 m beyond the charge."},
     {"domain.upper", quantities, quantity::length, any, "", "", "Upper corner of the box; see domain.lower."},
-    {"domain.boundaries", choice, quantity::none, any, "open|reflecting", "open",
+    {"domain.boundaries", choice, quantity::none, any, "open|reflecting|periodic", "open",
      "What happens at the box: open removes and books what leaves (and lets ambient air in), reflecting turns it "
-     "round."},
+     "round, periodic repeats the scene across x and y (its ends in z stay open)."},
     {"contact.surface_restitution", number, quantity::none, fraction, "soil", "0",
      "Grain against plate: 0 stops the normal motion, 1 reflects it, \"soil\" uses the soil's own spring law.",
      "Holloman et al. 2015: wet glass sand on a rigid block transmits 1.0 to 1.1 times its momentum"},

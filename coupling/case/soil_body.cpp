@@ -31,6 +31,14 @@ void shorten(double& x, double& y, double most) {
 
 }  // namespace
 
+SoilSpec without_cut_sides(SoilSpec soil, const Vec3& period) {
+  if (soil.shape != SoilShape::box) return soil;
+  const auto spans = [](double size, double length) { return length > 0.0 && size >= length * (1.0 - 1e-9); };
+  if (spans(soil.size.x, period.x)) soil.size.x = 4.0 * period.x;  // the sides are out of reach
+  if (spans(soil.size.y, period.y)) soil.size.y = 4.0 * period.y;
+  return soil;
+}
+
 SoilBody::SoilBody(const SoilSpec& soil, const Vec3& charge_centre)
     : shape_(soil.shape),
       centre_(soil.shape == SoilShape::shell ? charge_centre : soil.centre),

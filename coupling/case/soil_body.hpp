@@ -12,6 +12,9 @@
 
 namespace standoff {
 
+/// The body of a scene that repeats after `period` (DomainSpec): a box that reaches from face to face has no sides.
+SoilSpec without_cut_sides(SoilSpec soil, const Vec3& period);
+
 class SoilBody {
  public:
   SoilBody(const SoilSpec& soil, const Vec3& charge_centre);

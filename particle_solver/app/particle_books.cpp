@@ -12,7 +12,9 @@ namespace standoff::particles {
 ParticleBooks::ParticleBooks(const CaseSpec& spec, const Scene& scene, const TimeLoop& loop)
     : spec_(spec), scene_(scene), loop_(loop) {
   ledger_.open(loop.energy(), loop.momentum_everywhere());
-  if (scene.has_sand) shock_.emplace(scene.sand, scene.centre, SoilBody(spec.soil, scene.centre));
+  if (!scene.has_sand) return;
+  const SoilSpec soil = without_cut_sides(spec.soil, spec.domain.period());
+  shock_.emplace(scene.sand, scene.centre, SoilBody(soil, scene.centre));
 }
 
 void ParticleBooks::observe(double time) {

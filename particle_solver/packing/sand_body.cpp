@@ -40,8 +40,14 @@ struct Candidate {
   std::uint32_t cell_grain = 0;
 };
 
-/// Grains of the repeated cell in and near `shape`, which lies about the origin.
-std::vector<Candidate> cut(const SoilBody& shape, const PackedCell& cell, double size, const BodyOptions& options) {
+bool is_image(const PeriodicSides& sides, const Vec3& x) {
+  const Vec3 &lower = sides.faces.lower, &upper = sides.faces.upper;
+  return x.x < lower.x || x.x >= upper.x || x.y < lower.y || x.y >= upper.y;
+}
+
+/// Grains of the repeated cell in and near `shape`, which lies about the origin and goes to `centre`.
+std::vector<Candidate> cut(const SoilBody& shape, const Vec3& centre, const PackedCell& cell, double size,
+                           const BodyOptions& options) {
   CounterRandom random(options.seed, RandomUse::cell_offset, 0);
   const Vec3 offset{random.uniform(), random.uniform(), random.uniform()};
   const double margin = 4.0 * cell.mean_radius * size;
@@ -55,6 +61,7 @@ std::vector<Candidate> cut(const SoilBody& shape, const PackedCell& cell, double
         for (std::size_t i = 0; i < cell.position.size(); ++i) {
           const Vec3 place = size * (Vec3{double(x), double(y), double(z)} + cell.position[i] - offset);
           if (options.quarter && (place.x < 0.0 || place.y < 0.0)) continue;
+          if (options.sides.on() && is_image(options.sides, place + centre)) continue;
           const double outside = shape.beyond(place);
           if (outside < margin) candidates.push_back({outside, place, static_cast<std::uint32_t>(i)});
         }
@@ -110,22 +117,29 @@ SandBody fill_body(const SoilSpec& soil, const BodyOptions& options) {
   body.cell_size = std::cbrt(shape.volume() * options.cell_count / static_cast<double>(soil.particles));
   body.law = grain_law(soil, body.cell_size);
   body.cell_overlap = cell.max_overlap, body.cell_coordination = cell.coordination;
-  SoilSpec at_origin = soil;
+  const SoilSpec uncut = without_cut_sides(soil, options.sides.period.length);
+  SoilSpec at_origin = uncut;
   at_origin.centre = {};
-  std::vector<Candidate> kept = cut({at_origin, options.centre - shape.centre()}, cell, body.cell_size, options);
+  std::vector<Candidate> kept =
+      cut({at_origin, options.centre - shape.centre()}, shape.centre(), cell, body.cell_size, options);
   keep_deepest(kept, wanted);
   const double radius = cell.mean_radius * body.cell_size;
   for (Candidate& c : kept)
     if (options.quarter) c.place.x = off_plane(c.place.x, radius), c.place.y = off_plane(c.place.y, radius);
   body.grains = make_state(kept, cell, body.cell_size, soil.bulk_density * shape.volume() / copies, shape.centre());
 
-  SandPairs pairs({{1.0, 0.0, 0.0}, {options.quarter}, {}, 0.2, options.threads});
-  const BodyBounds bounds{shape, 0.35 * radius};
+  std::optional<Vec3> box;
+  if (options.sides.on()) box = options.sides.period.length;
+  SandPairs pairs({{1.0, 0.0, 0.0}, {options.quarter}, box, 0.2, options.threads});
+  const SoilBody held(uncut, options.centre);
+  const BodyBounds bounds{held, 0.35 * radius};
   const RelaxResult relaxed =
       relax_overlaps(body.grains, pairs, {options.overlap, 0.0, options.most_iterations, bounds});
   body.residual_overlap = relaxed.overlap, body.iterations = relaxed.iterations;
   body.coordination = pairs.books().coordination;
-  for (const Vec3& p : body.grains.position) body.swelling = std::max(body.swelling, shape.beyond(p));
+  for (const Vec3& p : body.grains.position) body.swelling = std::max(body.swelling, held.beyond(p));
+  if (options.sides.on())
+    for (Vec3& p : body.grains.position) p = image_inside(options.sides, p);
   return body;
 }
 

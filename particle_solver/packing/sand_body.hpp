@@ -10,6 +10,9 @@
 // and mass are exact, and L, k, radius and mass of a grain are those of the cell. Centres lie in the body; half a
 // grain stands out at either surface, so that the mass density is right up to the surface on average.
 //
+// In a scene that repeats a box as wide as the scene is cut by the faces alone, without sides: the grains kept are the
+// N deepest below its top and bottom, and overlaps with images are relaxed like others.
+//
 // In a quarter model the planes x = 0 and y = 0 are mirrors: no centre may be nearer than its radius. Overlaps (with
 // images, or what a cell at random close packing keeps) are relaxed with free surfaces, centres at most a third of a
 // radius outside.
@@ -17,6 +20,7 @@
 
 #include "coupling/case/case_spec.hpp"
 #include "particle_solver/kernels/grain_contact.hpp"
+#include "particle_solver/kernels/periodic_images.hpp"
 #include "particle_solver/packing/packed_cell.hpp"
 #include "particle_solver/state/media.hpp"
 
@@ -30,6 +34,7 @@ struct BodyOptions {
   double overlap = 1e-4;  // largest overlap left, in mean diameters
   int most_iterations = 3000;
   int threads = 1;
+  PeriodicSides sides{};  // of a scene that repeats
 };
 
 struct SandBody {

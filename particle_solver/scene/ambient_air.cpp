@@ -25,7 +25,7 @@ AirCellsOptions cell_options(const CaseSpec& spec, double size) {
   options.lower = spec.domain.lower, options.upper = spec.domain.upper;
   options.size = size;
   options.mirrors = spec.run.quarter_symmetry;
-  options.closed = spec.domain.boundaries == "reflecting";
+  options.closed = spec.domain.closed(), options.repeats = spec.domain.repeats();
   if (options.mirrors) options.lower.x = options.lower.y = 0.0;
   const bool cover = spec.plate.surround == "rigid";
   options.cover_x = 0.5 * (cover ? spec.plate.surround_size : spec.plate.size.x);
@@ -55,7 +55,8 @@ std::unique_ptr<Air> build_air(const CaseSpec& spec) {
   air->cross_section = cross_section(ambient, air->mean_free_path);
   air->still_speed = still_mach * std::sqrt(spec.air.gamma * spec.air.pressure / spec.air.density);
   if (spec.charge.present) air->body_radius = spec.charge.radius;
-  if (spec.soil.kind != SoilKind::none) air->sand.emplace(spec.soil, air->body_centre);
+  if (spec.soil.kind != SoilKind::none)
+    air->sand.emplace(without_cut_sides(spec.soil, spec.domain.period()), air->body_centre);
   GasState& gas = air->particles;
   gas.mass = ambient.particle_mass, gas.gamma = spec.air.gamma;
   gas.radius = std::cbrt(3.0 * wall_fill / (4.0 * std::numbers::pi * ambient.number_density()));

@@ -36,14 +36,19 @@ Scene build_scene(const CaseSpec& spec, const SurfaceMesh& mesh, int threads) {
   scene.has_air = spec.effect("air");
   if (scene.has_air) scene.air = build_air(spec);
   if (scene.has_sand) {
-    SandBody body =
-        fill_body(spec.soil, {.centre = scene.centre, .quarter = quarter, .seed = spec.run.seed, .threads = threads});
+    const DomainSpec& domain = spec.domain;
+    SandBody body = fill_body(spec.soil, {.centre = scene.centre,
+                                          .quarter = quarter,
+                                          .seed = spec.run.seed,
+                                          .threads = threads,
+                                          .sides = periodic_sides(domain.repeats(), domain.lower, domain.upper)});
     scene.sand = std::move(body.grains);
     scene.sand_cell_size = body.cell_size;
     scene.sand_residual_overlap = body.residual_overlap;
     SandPairsOptions law;
     law.law = body.law;
     law.mirrors.on = quarter;
+    if (domain.repeats()) law.periodic_box = domain.period();
     law.threads = threads;
     scene.sand_law = law;
   }
@@ -65,9 +70,11 @@ double window_limit(const CaseSpec& spec, const Scene& scene) {
   const double sand = scene.has_sand ? scene.sand.mass * static_cast<double>(scene.sand.size()) * spec.copies() : 0.0;
   const double speed = std::sqrt(2.0 * energy / std::max(sand + 0.6 * charge, 1e-12));
   const double momentum = (sand + 0.75 * charge) * speed;
-  const double area = spec.charge.length > 0.0  // a cylinder pushes on its casing
-                          ? 2.0 * std::numbers::pi * spec.charge.radius * spec.charge.length
-                          : 4.0 * std::numbers::pi * spec.run.stand_off * spec.run.stand_off;
+  double area = spec.charge.length > 0.0  // a cylinder pushes on its casing
+                    ? 2.0 * std::numbers::pi * spec.charge.radius * spec.charge.length
+                    : 4.0 * std::numbers::pi * spec.run.stand_off * spec.run.stand_off;
+  if (const Vec3 period = spec.domain.period(); period.x > 0.0)  // a layer of charges sends half to either side
+    area = std::min(area, 2.0 * period.x * period.y);
   const double specific = momentum / area;
   const double wall_speed = specific / (spec.plate.material.density * spec.plate.size.z);
   return wall_speed > 0.0 ? radius / wall_speed : spec.run.until;

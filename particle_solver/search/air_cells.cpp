@@ -23,10 +23,19 @@ AirCells::AirCells(const AirCellsOptions& options) : options_(options) {
     origin = -below * width;
     return above + below;
   };
-  n_[0] = axis(low.x, high.x, width_.x, origin_.x);
-  n_[1] = axis(low.y, high.y, width_.y, origin_.y);
+  const auto between_faces = [&](double from, double to, double& width, double& origin) {
+    const int count = cells_in(from, to, options.size);
+    width = (to - from) / count, origin = from;
+    return count;
+  };
+  n_[0] =
+      options.repeats ? between_faces(low.x, high.x, width_.x, origin_.x) : axis(low.x, high.x, width_.x, origin_.x);
+  n_[1] =
+      options.repeats ? between_faces(low.y, high.y, width_.y, origin_.y) : axis(low.y, high.y, width_.y, origin_.y);
   n_[2] = axis(low.z, high.z, width_.z, origin_.z);
   inverse_width_ = {1.0 / width_.x, 1.0 / width_.y, 1.0 / width_.z};
+  // A point in a face it has come back to is in a cell, whichever way its last digit was rounded.
+  if (options.repeats) inverse_width_.x *= 1.0 - 0x1p-48, inverse_width_.y *= 1.0 - 0x1p-48;
   state_.resize(static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]));
   noted_.assign(state_.size(), 0);
   for (std::uint32_t c = 0; c < state_.size(); ++c) state_[c] = kind_at_start(index_of(c));
@@ -63,14 +72,26 @@ void AirCells::disturb(const Vec3& point) {
   noted_[centre] = 2;  // its neighbours are noted
   noted_cells_.push_back(centre);
   const auto i = index_of(centre);
-  for (int z = std::max(0, i[2] - 1); z <= std::min(n_[2] - 1, i[2] + 1); ++z)
-    for (int y = std::max(0, i[1] - 1); y <= std::min(n_[1] - 1, i[1] + 1); ++y)
-      for (int x = std::max(0, i[0] - 1); x <= std::min(n_[0] - 1, i[0] + 1); ++x) {
-        const auto c = static_cast<std::uint32_t>((z * n_[1] + y) * n_[0] + x);
+  const auto first = [&](std::size_t axis) { return repeats(axis) ? i[axis] - 1 : std::max(0, i[axis] - 1); };
+  const auto last = [&](std::size_t axis) { return repeats(axis) ? i[axis] + 1 : std::min(n_[axis] - 1, i[axis] + 1); };
+  const auto folded = [&](int k, std::size_t axis) { return (k + n_[axis]) % n_[axis]; };
+  for (int z = first(2); z <= last(2); ++z)
+    for (int y = first(1); y <= last(1); ++y)
+      for (int x = first(0); x <= last(0); ++x) {
+        const auto c = static_cast<std::uint32_t>((z * n_[1] + folded(y, 1)) * n_[0] + folded(x, 0));
         if (noted_[c] != 0) continue;
         noted_[c] = 1;
         noted_cells_.push_back(c);
       }
+}
+
+std::uint32_t AirCells::next_to(std::uint32_t cell, int axis, int step) const {
+  const int here = index_of(cell)[static_cast<std::size_t>(axis)], count = n_[axis];
+  int there = here + step;
+  if (repeats(static_cast<std::size_t>(axis))) there = (there + count) % count;
+  if (there < 0 || there >= count) return outside_cell;
+  const int stride = axis == 0 ? 1 : axis == 1 ? n_[0] : n_[0] * n_[1];
+  return static_cast<std::uint32_t>(static_cast<int>(cell) + (there - here) * stride);
 }
 
 const std::vector<std::uint32_t>& AirCells::wake() {
@@ -98,16 +119,13 @@ bool AirCells::reaches_beside_cover(std::uint32_t cell) const {
 }
 
 AirCell AirCells::beyond(std::uint32_t cell, int axis, int side) const {
-  const int next = index_of(cell)[static_cast<std::size_t>(axis)] + side;
-  if (next < 0 || next >= n_[axis]) return AirCell::outside;
-  const std::int64_t stride = axis == 0 ? 1 : axis == 1 ? n_[0] : n_[0] * n_[1];
-  return state_[static_cast<std::size_t>(cell + side * stride)];
+  const std::uint32_t next = next_to(cell, axis, side);
+  return next == outside_cell ? AirCell::outside : state_[next];
 }
 
 bool AirCells::is_source(std::uint32_t cell, int axis, int side) const {
-  const int next = index_of(cell)[static_cast<std::size_t>(axis)] + side;
-  const bool edge = next < 0 || next >= n_[axis], mirror = options_.mirrors && axis < 2 && next < 0;
-  if (mirror || (edge && options_.closed)) return false;
+  const bool edge = next_to(cell, axis, side) == outside_cell, mirror = options_.mirrors && axis < 2 && side < 0;
+  if (edge && (mirror || options_.closed)) return false;
   const AirCell kind = beyond(cell, axis, side);
   // Through the plane of the plate air comes only beside the cover, also in a cell that its rim cuts.
   const bool rim = kind == AirCell::wall && axis == 2 && side < 0 && reaches_beside_cover(cell);

@@ -9,7 +9,7 @@
 //
 // A face between an awake cell and one that is asleep or outside is a source: what still air sends through it is
 // injected, what flies through it is taken out. Cell boundaries lie in the planes x = 0, y = 0 and z = 0, so mirrors
-// and the plate never cut a cell.
+// and the plate never cut a cell; in a scene that repeats across x and y they lie in its faces instead.
 //
 // Data: cells numbered x fastest; sort() lists points cell by cell (counting sort, stable).
 #include <array>
@@ -29,7 +29,8 @@ struct AirCellsOptions {
   double size = 0.0;                    // m, wanted edge
   double cover_x = 0.0, cover_y = 0.0;  // m, half widths of plate and cover, which lie in z = 0; 0: there is none
   bool mirrors = false;
-  bool closed = false;  // reflecting box: nothing beyond it sends or takes
+  bool closed = false;   // reflecting box: nothing beyond it sends or takes
+  bool repeats = false;  // across x and y: beyond a face are the cells at the opposite one
 };
 
 /// One face that still air sends through.
@@ -85,7 +86,10 @@ class AirCells {
   }
 
  private:
+  bool repeats(std::size_t axis) const { return options_.repeats && axis < 2; }
   std::array<int, 3> index_of(std::uint32_t cell) const;
+  /// Cell `step` cells on along `axis`; `outside_cell` beyond the box.
+  std::uint32_t next_to(std::uint32_t cell, int axis, int step) const;
   bool reaches_beside_cover(std::uint32_t cell) const;
   AirCell beyond(std::uint32_t cell, int axis, int side) const;
   bool is_source(std::uint32_t cell, int axis, int side) const;

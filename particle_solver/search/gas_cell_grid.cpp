@@ -7,14 +7,21 @@
 
 namespace standoff::particles {
 
-void GasCellGrid::shape(std::size_t count, double reach, double periodic_side) {
-  periodic_ = periodic_side > 0.0;
+void GasCellGrid::shape(std::size_t count, double reach, const Period& period) {
+  periodic_ = period.on();
   // Rows are as wide as the reach, so a search meets 9 to 16 of them; along a row, where cells cost nothing, half of
   // that clips the candidates closer.
   if (periodic_) {
-    const auto cells = [&](double width) { return std::clamp(static_cast<int>(periodic_side / width), 1, 1024); };
-    nx_ = cells(0.5 * reach), ny_ = nz_ = cells(reach);
-    width_ = {periodic_side / nx_, periodic_side / ny_, periodic_side / nz_};
+    const auto cells = [](double length, double width) {
+      return std::clamp(static_cast<int>(length / width), 1, 1024);
+    };
+    const int most = static_cast<int>(std::min<std::size_t>(16 * count + 4096, 1 << 22));  // beside each other
+    const Vec3& length = period.length;
+    double wide = reach;
+    do nx_ = cells(length.x, 0.5 * wide), ny_ = cells(length.y, wide), wide *= 2.0;
+    while (nx_ * ny_ > most);
+    nz_ = length.z > 0.0 ? cells(length.z, reach) : std::clamp(most / (nx_ * ny_), 4, 1024);
+    width_ = {length.x / nx_, length.y / ny_, length.z > 0.0 ? length.z / nz_ : reach};
   } else {
     const int bits = std::bit_width(std::clamp<std::size_t>(4 * count, 512, std::size_t{1} << 24));
     nx_ = 1 << (bits - 2 * (bits / 3)), ny_ = nz_ = 1 << (bits / 3);

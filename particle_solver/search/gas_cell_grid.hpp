@@ -9,7 +9,7 @@
 //        and stored    |0|1|2|3|0|1|2|3|0|1|..        the exact test rejects them: a cost, never an error.
 //
 // Points are sorted by stored cell (counting sort, stable), x fastest: the cells of one x-row within reach are one run
-// of consecutive points. The same fold with nx = side / cell gives a periodic box for free.
+// of consecutive points. The same fold with nx = period / cell gives a periodic scene for free.
 //
 // Data: start(c) .. start(c + 1) are positions in the sorted order of the points in stored cell c; order()[p] is the
 // point. There are more cells than points, so starts are kept short: sixteen cells are a row, which has its start in
@@ -21,14 +21,15 @@
 #include <vector>
 
 #include "coupling/base/vec3.hpp"
+#include "particle_solver/kernels/periodic_images.hpp"
 
 namespace standoff::particles {
 
 class GasCellGrid {
  public:
-  /// Chooses cells for about `count` points that will be asked for neighbours within `reach` [m]. `periodic_side` > 0:
-  /// a periodic cube of that side.
-  void shape(std::size_t count, double reach, double periodic_side = 0.0);
+  /// Chooses cells for about `count` points that will be asked for neighbours within `reach` [m]; a scene that repeats
+  /// is folded after its period, across x and y at least.
+  void shape(std::size_t count, double reach, const Period& period = {});
 
   /// Sorts the points; afterwards order() lists them cell by cell.
   void sort(std::span<const Vec3> points);

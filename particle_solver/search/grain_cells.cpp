@@ -80,10 +80,15 @@ void GrainCells::choose_grid(std::span<const Vec3> points, double cutoff, const 
   Vec3 upper;
   bounds(points, lower_, upper);
   if (periodic_) {
-    box_ = *periodic_box, lower_ = {};
+    box_ = *periodic_box, lower_ = {0.0, 0.0, box_.z > 0.0 ? 0.0 : lower_.z};
+    const double most = 64.0 * (8.0 * static_cast<double>(points.size()) + 65536.0);  // a scene may be nearly empty
     const auto along = [&](double length) { return std::min(std::max(1, whole_cells(length, cutoff)), 1 << 20); };
-    cells_ = {along(box_.x), along(box_.y), along(box_.z)};
-    per_edge_ = {cells_.x / box_.x, cells_.y / box_.y, cells_.z / box_.z};
+    const double height = points.empty() ? 0.0 : upper.z - lower_.z;
+    for (;; cutoff *= 2.0) {
+      cells_ = {along(box_.x), along(box_.y), box_.z > 0.0 ? along(box_.z) : along(height) + 1};
+      if (1.0 * cells_.x * cells_.y * cells_.z <= most) break;
+    }
+    per_edge_ = {cells_.x / box_.x, cells_.y / box_.y, box_.z > 0.0 ? cells_.z / box_.z : 1.0 / cutoff};
     edge_ = 1.0 / std::max({per_edge_.x, per_edge_.y, per_edge_.z});
   } else {
     const double most = 8.0 * static_cast<double>(points.size()) + 65536.0;
@@ -102,11 +107,11 @@ void GrainCells::choose_grid(std::span<const Vec3> points, double cutoff, const 
 CellIndex GrainCells::cell_at(const Vec3& p) const {
   if (periodic_) {
     const auto along = [](double x, double length, double per_edge, int n) {
-      const int c = static_cast<int>((x - length * std::floor(x / length)) * per_edge);
-      return std::clamp(c, 0, n - 1);
+      const double inside = length > 0.0 ? x - length * std::floor(x / length) : x;
+      return std::clamp(static_cast<int>(inside * per_edge), 0, n - 1);
     };
     return {along(p.x, box_.x, per_edge_.x, cells_.x), along(p.y, box_.y, per_edge_.y, cells_.y),
-            along(p.z, box_.z, per_edge_.z, cells_.z)};
+            along(p.z - lower_.z, box_.z, per_edge_.z, cells_.z)};
   }
   const auto along = [](double x, double per_edge, int n) {
     return std::clamp(static_cast<int>(x * per_edge), 0, n - 1);
@@ -169,7 +174,7 @@ std::array<std::int32_t, 27> GrainCells::bricks_around(std::size_t brick) const 
 int GrainCells::find(CellIndex c, unsigned& code) const {
   if (periodic_) {
     const auto wrap = [](int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; };
-    c = {wrap(c.x, cells_.x), wrap(c.y, cells_.y), wrap(c.z, cells_.z)};
+    c = {wrap(c.x, cells_.x), wrap(c.y, cells_.y), box_.z > 0.0 ? wrap(c.z, cells_.z) : c.z};
   }
   code = code_of(c.x, c.y, c.z);
   // An arithmetic shift keeps -1 at -1, which find_brick refuses.

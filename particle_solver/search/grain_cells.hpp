@@ -26,7 +26,7 @@ class GrainCells {
     std::uint64_t morton = 0;
   };
 
-  /// Sorts `points`; `periodic_box` (lengths, lower corner at the origin) or null. The cutoff must be > 0.
+  /// Sorts `points`; `periodic_box` (lengths, 0: not along z) or null. The cutoff must be > 0.
   void build(std::span<const Vec3> points, double cutoff, const Vec3* periodic_box);
 
   /// Sorted index -> index in the span given to build.
@@ -34,7 +34,7 @@ class GrainCells {
   const std::vector<Brick>& bricks() const { return bricks_; }
   double edge() const { return edge_; }  // m, shortest edge of a cell
   /// True if periodic and too small for cells: everyone is everyone's neighbour.
-  bool too_small() const { return periodic_ && (cells_.x < 3 || cells_.y < 3 || cells_.z < 3); }
+  bool too_small() const { return periodic_ && (cells_.x < 3 || cells_.y < 3 || (cells_.z < 3 && box_.z > 0.0)); }
   bool periodic() const { return periodic_; }
 
   /// First sorted index of code `c` (0..64) of brick b; the points of a cell are [first(b,c), first(b,c+1)).

@@ -64,9 +64,9 @@ class Candidates {
     for (std::size_t k = first; k < count_; k += 4) {
       Lanes dx = x - load_anywhere(&x_[k]), dy = y - load_anywhere(&y_[k]), dz = z - load_anywhere(&z_[k]);
       if constexpr (Periodic) {
-        dx -= options.box->x * nearest_integer(dx * (1.0 / options.box->x));
-        dy -= options.box->y * nearest_integer(dy * (1.0 / options.box->y));
-        dz -= options.box->z * nearest_integer(dz * (1.0 / options.box->z));
+        dx -= options.box->x * nearest_integer(dx * options.per_box.x);
+        dy -= options.box->y * nearest_integer(dy * options.per_box.y);
+        dz -= options.box->z * nearest_integer(dz * options.per_box.z);
       }
       Lanes reach = all_lanes(options.cutoff);
       if constexpr (Radii) reach = load_anywhere(&radius_[k]) + (self.w + options.skin);

@@ -86,11 +86,12 @@ struct GrainBlock {
 };
 
 struct PairListOptions {
-  double cutoff = 0.0;   // m, largest centre distance that is listed
-  double skin = 0.0;     // m, with radii: listed up to r_i + r_j + skin
-  bool radii = false;    // grains differ: the radius is in GrainRecord::w
-  bool springs = false;  // friction: make room for tangential springs
-  const Vec3* box = nullptr;
+  double cutoff = 0.0;        // m, largest centre distance that is listed
+  double skin = 0.0;          // m, with radii: listed up to r_i + r_j + skin
+  bool radii = false;         // grains differ: the radius is in GrainRecord::w
+  bool springs = false;       // friction: make room for tangential springs
+  const Vec3* box = nullptr;  // m, lengths of a periodic box, 0 along an axis: open there
+  Vec3 per_box;               // 1/m, 0 likewise
   int threads = 1;
   std::uint32_t longest_offset = 0xFFFF;  // of an inner pair from the start of its block; a test asks for less
 };

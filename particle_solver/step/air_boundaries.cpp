@@ -97,7 +97,7 @@ void AirBoundaries::let_in(Air& air, BoundaryBooks& books, double dt, std::uint3
     const bool through_plate = source.axis == 2 && source.sign > 0.0 && x.z <= 0.0 && !air.cells.beside_cover(x);
     if (through_plate) continue;
     // Part of the step is flown already, unless the plate might have been in the way.
-    const Vec3 end = x + v * since;
+    const Vec3 flown = x + v * since, end = options_.sides.on() ? image_inside(options_.sides, flown) : flown;
     const AirCell there = air.cells.state_at(end);
     if (there == AirCell::asleep || there == AirCell::outside) continue;  // it has flown out again
     const bool clear = end.z > air.particles.radius || (air.cells.beside_cover(x) && air.cells.beside_cover(end));

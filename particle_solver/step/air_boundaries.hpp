@@ -8,6 +8,7 @@
 //
 // A box that is open to ambient air is the same thing as a sleeping neighbour. Everything that comes in or goes out is
 // booked, so the ledger closes. Effect ambient_pressure off leaves out 4 (a plate with vacuum behind it).
+#include "particle_solver/kernels/periodic_images.hpp"
 #include "particle_solver/state/air.hpp"
 #include "particle_solver/state/surface_sheet.hpp"
 #include "particle_solver/step/boundaries.hpp"
@@ -17,6 +18,7 @@ namespace standoff::particles {
 struct AirBoundariesOptions {
   std::uint64_t seed = 1;
   bool rear_pressure = true;
+  PeriodicSides sides{};  // of a scene that repeats
 };
 
 class AirBoundaries {

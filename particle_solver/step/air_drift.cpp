@@ -5,6 +5,7 @@
 
 #include "particle_solver/kernels/gas_impact_time.hpp"
 #include "particle_solver/kernels/gas_pair_impulse.hpp"
+#include "particle_solver/step/wrap.hpp"
 
 namespace standoff::particles {
 namespace {
@@ -48,16 +49,17 @@ void AirDrift::sort_grains(const SandState& sand, double radius, double dt) {
   }
   // Room for grains that air pushes aside within the step: a grain outweighs many of them.
   grain_reach_ = radius + largest + 0.55 * dt * std::sqrt(fastest);
-  grains_.shape(sand.size(), grain_reach_);
+  grains_.shape(sand.size(), grain_reach_, sides_.period);
   grains_.sort(middle_);
 }
 
+template <bool Periodic>
 void AirDrift::list_those_near(const Air& air, const SandState* sand, const SurfaceSheet* sheet, double dt) {
   const GasState& gas = air.particles;
   if (sand != nullptr) {
     double fastest = 0.0;
     for (const Vec3& v : gas.velocity) fastest = std::max(fastest, squared_norm(v));
-    near_grains_.mark(middle_, grain_reach_ + 0.5 * dt * std::sqrt(fastest));
+    near_grains_.mark(middle_, grain_reach_ + 0.5 * dt * std::sqrt(fastest), sides_.period);
   }
   const double top = sheet != nullptr ? sheet->highest(dt) + gas.radius : 0.0;
   near_.resize(gas.size());
@@ -65,11 +67,12 @@ void AirDrift::list_those_near(const Air& air, const SandState* sand, const Surf
   for (std::size_t i = 0; i < gas.size(); ++i) {
     const Vec3 &x = gas.position[i], &v = gas.velocity[i];
     bool near = sheet != nullptr && x.z + std::min(0.0, v.z * dt) <= top;
-    if (!near && sand != nullptr) near = near_grains_.near(x + v * (0.5 * dt));
+    if (!near && sand != nullptr) near = near_grains_.near<Periodic>(x + v * (0.5 * dt));
     near_[i] = near ? 1 : 0;
   }
 }
 
+template <bool Periodic>
 AirDrift::Hit AirDrift::earliest(const GasState& gas, std::size_t i, double from, double dt, const SandState* sand,
                                  const SurfaceSheet* sheet) const {
   Hit hit;
@@ -77,11 +80,12 @@ AirDrift::Hit AirDrift::earliest(const GasState& gas, std::size_t i, double from
   double until = dt;
   if (sand != nullptr && sand->size() > 0) {
     const double half = 0.5 * (dt - from) * norm(v);
-    grains_.visit<false>(x + v * (0.5 * (from + dt)), grain_reach_ + half, [&](std::uint32_t begin, std::uint32_t end) {
+    const Vec3 middle = x + v * (0.5 * (from + dt));
+    grains_.visit<Periodic>(middle, grain_reach_ + half, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t q = begin; q < end; ++q) {
         const std::uint32_t k = grains_.order()[q];
-        const double time =
-            impact_time(sand->position[k] - x, sand->velocity[k] - v, gas.radius + sand->radius_of(k), from, until);
+        const Vec3 gap = nearest_image<Periodic>(sand->position[k] - x, sides_.period);
+        const double time = impact_time(gap, sand->velocity[k] - v, gas.radius + sand->radius_of(k), from, until);
         if (!(time < hit.time)) continue;
         hit.time = until = time, hit.what = Hit::grain, hit.grain_index = k;
       }
@@ -92,17 +96,21 @@ AirDrift::Hit AirDrift::earliest(const GasState& gas, std::size_t i, double from
       hit.time = until = plane.time, hit.what = Hit::plane, hit.axis = plane.axis;
   SheetPoint where;
   double time = no_impact;
-  if (sheet != nullptr && sheet->first_hit(x, v, gas.radius, from, until, time, where) && time < hit.time)
-    hit = {time, Hit::sheet, 0, 0, where};
+  const auto first_hit = [&] {
+    if constexpr (Periodic) return first_hit_on_the_way(sides_, *sheet, x, v, gas.radius, from, until, time, where);
+    return sheet->first_hit(x, v, gas.radius, from, until, time, where);
+  };
+  if (sheet != nullptr && first_hit() && time < hit.time) hit = {time, Hit::sheet, 0, 0, where};
   return hit;
 }
 
+template <bool Periodic>
 void AirDrift::fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet, double dt, AirDriftCounts& counts) {
   GasState& gas = air.particles;
   Vec3 &x = gas.position[i], &v = gas.velocity[i];
   double from = 0.0;
   for (int bounce = 0; bounce < most_bounces; ++bounce) {
-    const Hit hit = earliest(gas, i, from, dt, sand, sheet);
+    const Hit hit = earliest<Periodic>(gas, i, from, dt, sand, sheet);
     if (hit.what == Hit::none) break;
     from = hit.time;
     const Vec3 old = v;
@@ -117,7 +125,8 @@ void AirDrift::fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet
       const std::uint32_t k = hit.grain_index;
       const double inverse = 1.0 / gas.mass, inverse_grain = 1.0 / sand->mass_of(k);
       const Vec3 closing = sand->velocity[k] - v;
-      const Vec3 n = line_of_centres(sand->position[k] - x + closing * from, closing);
+      const Vec3 gap = nearest_image<Periodic>(sand->position[k] - x, sides_.period);
+      const Vec3 n = line_of_centres(gap + closing * from, closing);
       const double before = dot(closing, n);
       const double impulse = pair_impulse(reduced_mass(inverse, inverse_grain), before, -before);
       speed_of_other = norm(sand->velocity[k]);
@@ -140,21 +149,29 @@ void AirDrift::fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet
   x += v * dt;
 }
 
-AirDriftCounts AirDrift::run(Air& air, SandState* sand, SurfaceSheet* sheet, double dt) {
+template <bool Periodic>
+AirDriftCounts AirDrift::run_images(Air& air, SandState* sand, SurfaceSheet* sheet, double dt) {
   AirDriftCounts counts;
   GasState& gas = air.particles;
   if (gas.size() == 0) return counts;
   if (sand != nullptr) sort_grains(*sand, gas.radius, dt);
-  list_those_near(air, sand, sheet, dt);
+  list_those_near<Periodic>(air, sand, sheet, dt);
 #pragma omp parallel for num_threads(threads_) schedule(static)
   for (std::size_t i = 0; i < gas.size(); ++i)
     if (near_[i] == 0) gas.position[i] += gas.velocity[i] * dt;
   for (std::size_t i = 0; i < gas.size(); ++i)
-    if (near_[i] != 0) fly(air, i, sand, sheet, dt, counts);
-  if (planes_.on)
+    if (near_[i] != 0) fly<Periodic>(air, i, sand, sheet, dt, counts);
+  if constexpr (Periodic) {
+    for (Vec3& x : gas.position) x = image_inside(sides_, x);
+  } else if (planes_.on) {
     for (std::size_t i = 0; i < gas.size(); ++i)
       counts.mirror_impulse += fold(planes_, gas.position[i], gas.velocity[i]) * gas.mass;
+  }
   return counts;
+}
+
+AirDriftCounts AirDrift::run(Air& air, SandState* sand, SurfaceSheet* sheet, double dt) {
+  return sides_.on() ? run_images<true>(air, sand, sheet, dt) : run_images<false>(air, sand, sheet, dt);
 }
 
 }  // namespace standoff::particles

@@ -5,6 +5,7 @@
 // Momentum and energy are exact. Air flies once a window, which is several steps of grains: a grain takes its impulse
 // at once and is not shifted back as media.hpp would have it, because its neighbours would feel the shift as an
 // overlap.
+#include "particle_solver/kernels/periodic_images.hpp"
 #include "particle_solver/kernels/reflecting_planes.hpp"
 #include "particle_solver/search/gas_cell_grid.hpp"
 #include "particle_solver/search/gas_near_map.hpp"
@@ -22,19 +23,26 @@ struct AirDriftCounts {
 
 class AirDrift {
  public:
-  AirDrift(const ReflectingPlanes& planes, int threads) : planes_(planes), threads_(threads) {}
+  AirDrift(const ReflectingPlanes& planes, int threads, const PeriodicSides& sides = {})
+      : planes_(planes), sides_(sides), threads_(threads) {}
   /// Positions of the air are moved to the end of the step; grains and sheet keep the convention of media.hpp.
   AirDriftCounts run(Air& air, SandState* sand, SurfaceSheet* sheet, double dt);
 
  private:
   struct Hit;
+  template <bool Periodic>
+  AirDriftCounts run_images(Air& air, SandState* sand, SurfaceSheet* sheet, double dt);
+  template <bool Periodic>
   void list_those_near(const Air& air, const SandState* sand, const SurfaceSheet* sheet, double dt);
   void sort_grains(const SandState& sand, double radius, double dt);
+  template <bool Periodic>
   Hit earliest(const GasState& gas, std::size_t i, double from, double dt, const SandState* sand,
                const SurfaceSheet* sheet) const;
+  template <bool Periodic>
   void fly(Air& air, std::size_t i, SandState* sand, SurfaceSheet* sheet, double dt, AirDriftCounts& counts);
 
   ReflectingPlanes planes_;
+  PeriodicSides sides_;
   int threads_;
   std::vector<std::uint8_t> near_;  // of every particle
   GasCellGrid grains_;

@@ -51,7 +51,8 @@ Boundaries::Boundaries(const BoundaryOptions& options)
 Boundaries::Limits Boundaries::limits(const SurfaceSheet* sheet) const {
   Limits limits{options_.lower, options_.upper, infinity, infinity, -infinity, -infinity};
   if (options_.closed) limits.lower = {-infinity, -infinity, -infinity}, limits.upper = {infinity, infinity, infinity};
-  if (options_.quarter) limits.lower.x = limits.lower.y = -infinity;
+  if (options_.quarter || options_.repeats) limits.lower.x = limits.lower.y = -infinity;
+  if (options_.repeats) limits.upper.x = limits.upper.y = infinity;
   if (sheet == nullptr || !sheet->is_level()) return limits;  // a pipe has no rear that gas could get behind
   const std::vector<Vec3>& rest = sheet->mesh().position;
   limits.outline_x = limits.outline_y = 0.0;

@@ -2,7 +2,8 @@
 // Stage boundaries: takes out particles that can no longer matter and books what they carry; in a closed box turns
 // grains round at its walls (gas and air meet the walls in flight, reflecting_planes.hpp).
 //
-// Out is a particle that (1) left the domain's box; with a quarter model x = 0 and y = 0 are mirrors, not exits; (2)
+// Out is a particle that (1) left the domain's box; with a quarter model x = 0 and y = 0 are mirrors, not exits, and
+// in a scene that repeats only the ends in z are; (2)
 // passed the plane of the plate's edge by one radius outside the sheet's outline, which is how gas gets behind an open
 // plate; or (3) is deeper than one radius below the lowest point of the sheet: it slipped through, which is counted
 // apart because it should not happen. Of a pipe only (1) holds. The others keep their order. Momentum and energy of
@@ -21,7 +22,8 @@ struct BoundaryOptions {
   Vec3 lower, upper;  // m, domain box
   bool quarter = false;
   int threads = 1;
-  bool closed = false;  // the box has walls that reflect
+  bool closed = false;   // the box has walls that reflect
+  bool repeats = false;  // the scene repeats across x and y: no way out there
 };
 
 /// What one call took out: indices before the removal, ascending; for lists that others keep by index.

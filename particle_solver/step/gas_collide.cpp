@@ -46,15 +46,15 @@ GasCollideCounts GasCollide::run(GasState& gas, SandState* sand, SurfaceSheet* s
   if (gas.size() == 0) return counts;
   gas::Work& work = impl_->work;
   const GasCollideOptions& options = impl_->options;
-  if (options.periodic_side > 0.0 && (sand != nullptr || sheet != nullptr || options.mirrors.on || options.walls.on))
-    throw Stop(ExitCode::guard,
-               "gas_collide: a periodic box holds gas alone; give it no sand, sheet, mirrors or walls");
+  const bool repeats = options.periodic.on();
+  if (repeats && (options.mirrors.on || options.walls.on))
+    throw Stop(ExitCode::guard, "gas_collide: a scene that repeats has neither mirrors nor walls");
   if (gas.size() >= gas::Choices::most_partners)
     throw Stop(ExitCode::guard, "gas_collide: more than 2^29 gas particles; lower charge.particles");
   work.h = h, work.per_step = 1.0 / h, work.step = step, work.sheet = sheet, work.gas = &gas, work.sand = sand;
   work.seed = options.seed, work.threads = options.threads,
   work.planes = reflecting_planes(options.mirrors.on, options.walls.on, options.walls.lower, options.walls.upper);
-  work.periodic_side = options.periodic_side;
+  work.periodic = options.periodic;
   work.zeta = options.internal_energy ? internal_degrees_of_freedom(gas.gamma) : 0.0;
 
   std::vector<long>& hits_by_round = impl_->hits_by_round;

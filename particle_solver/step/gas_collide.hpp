@@ -19,6 +19,7 @@
 #include <memory>
 
 #include "coupling/case/case_spec.hpp"
+#include "particle_solver/kernels/periodic_images.hpp"
 #include "particle_solver/kernels/reflecting_planes.hpp"
 #include "particle_solver/search/gas_cell_grid.hpp"
 #include "particle_solver/state/media.hpp"
@@ -48,8 +49,8 @@ struct GasCollideOptions {
   std::uint64_t seed = 1;
   MirrorPlanes mirrors;    // of a quarter model
   ReflectingPlanes walls;  // of a closed box
+  PeriodicSides periodic;  // of a scene that repeats, without mirrors and walls
   int threads = 1;
-  double periodic_side = 0.0;  // m; > 0: a periodic cube of this side, gas only (material tests)
 };
 
 class GasCollide {

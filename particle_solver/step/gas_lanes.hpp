@@ -16,13 +16,16 @@
 // Reading a run eight at a time may look past its end: those are bodies like any other, so they do no harm, and `pad`
 // bodies at rest far away close the arrays.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include <immintrin.h>
 
 #include "coupling/base/vec3.hpp"
+#include "particle_solver/kernels/periodic_images.hpp"
 
 namespace standoff::particles::gas {
 
@@ -34,12 +37,7 @@ inline Pack load_pack(const float* first) {
   std::memcpy(&result, first, sizeof(result));
   return result;
 }
-/// To the nearest whole number, ties to even, |x| < 2^51 (double) or 2^22 (float): odd in x, so an image is the same
-/// seen from either body.
-inline double nearest_whole(double x) {
-  constexpr double magic = 0x1.8p52;
-  return (x + magic) - magic;
-}
+/// As in periodic_images.hpp, |x| < 2^22.
 inline Pack nearest_whole(Pack x) {
   constexpr float magic = 0x1.8p23f;
   return (x + magic) - magic;
@@ -72,22 +70,24 @@ class Lanes {
 
 /// What a search compares eight candidates with: the path of a body in [from, until], in parts of the sub-step.
 struct Probe {
-  Probe(const Lanes& lanes, const Vec3& start, const Vec3& path, double from, double until, double contact,
-        double side = 0.0);
+  Probe(const Lanes& lanes, const Vec3& start, const Vec3& path, double from, double until, double contact);
+  /// For a scene that repeats.
+  void repeat(const Period& period);
   void narrow(double until) { tau = static_cast<float>((until - from_) * (1.0 + 0x1p-20)); }
 
   float x, y, z, ux, uy, uz;  // m
   float from, tau;
-  float slack, reach2, approach;      // m, m2, m2: e, D^2 with its margin, and 4 e P
-  float margin2;                      // m2, 2^-20 P^2
-  float side = 0.0f, inverse = 0.0f;  // m, 1/m of the periodic cube
+  float slack, reach2, approach;       // m, m2, m2: e, D^2 with its margin, and 4 e P
+  float margin2;                       // m2, 2^-20 P^2
+  std::array<float, 3> side, inverse;  // m, 1/m: the period along each axis
+  std::array<float, 3> half;           // m, farther apart rounding may take the other image for the nearest
 
  private:
   double from_;
 };
 
 [[gnu::always_inline]] inline Probe::Probe(const Lanes& lanes, const Vec3& start, const Vec3& path, double begin,
-                                           double until, double contact, double periodic_side)
+                                           double until, double contact)
     : x(static_cast<float>(start.x)),
       y(static_cast<float>(start.y)),
       z(static_cast<float>(start.z)),
@@ -104,27 +104,33 @@ struct Probe {
   margin2 = static_cast<float>(squares);
   reach2 = static_cast<float>(grown * grown + squares);
   approach = static_cast<float>(4.0 * error * size);
-  if (periodic_side > 0.0) side = static_cast<float>(periodic_side), inverse = static_cast<float>(1.0 / periodic_side);
   narrow(until);
 }
 
-enum class Partner { gas, gas_in_periodic_cube, grain };
+inline void Probe::repeat(const Period& period) {
+  const double length[3] = {period.length.x, period.length.y, period.length.z};
+  const double per_length[3] = {period.per_length.x, period.per_length.y, period.per_length.z};
+  for (std::size_t a = 0; a < 3; ++a) {
+    side[a] = static_cast<float>(length[a]), inverse[a] = static_cast<float>(per_length[a]);
+    half[a] = length[a] > 0.0 ? 0.5f * side[a] - 4.0f * slack : std::numeric_limits<float>::infinity();
+  }
+}
+
+enum class Partner { gas, grain };
 
 /// Bit l is set if body p + l may be hit in time.
-template <Partner Kind>
+template <Partner Kind, bool Periodic = false>
 [[gnu::always_inline]] inline unsigned hit_in_time(const Lanes& lanes, std::size_t p, const Probe& me) {
   Pack rx = load_pack(&lanes.x[p]) - me.x, ry = load_pack(&lanes.y[p]) - me.y, rz = load_pack(&lanes.z[p]) - me.z;
   const Pack wx = load_pack(&lanes.ux[p]) - me.ux, wy = load_pack(&lanes.uy[p]) - me.uy,
              wz = load_pack(&lanes.uz[p]) - me.uz;
   PackMask between_images{};
-  if constexpr (Kind == Partner::gas_in_periodic_cube) {
-    // Half a side away rounding may take the other image for the nearest.
-    const float half = 0.5f * me.side - 4.0f * me.slack;
-    const auto image = [&](Pack& r) {
-      r -= me.side * nearest_whole(r * me.inverse);
-      between_images |= (r > half) | (r < -half);
+  if constexpr (Periodic) {
+    const auto image = [&](Pack& r, std::size_t axis) {
+      r -= me.side[axis] * nearest_whole(r * me.inverse[axis]);
+      between_images |= (r > me.half[axis]) | (r < -me.half[axis]);
     };
-    image(rx), image(ry), image(rz);
+    image(rx, 0), image(ry, 1), image(rz, 2);
   }
   Pack reach2 = Pack{} + me.reach2;
   if constexpr (Kind == Partner::grain) {

@@ -35,7 +35,7 @@ void load_bodies(Work& work, const MiddleOfGas& middle) {
   }
   work.excursion = 0.5 * work.h * std::sqrt(fastest);
   const double usual = 0.5 * work.h * std::sqrt(square_sum / static_cast<double>(std::max<std::size_t>(count, 1)));
-  work.grid.shape(count, 2.0 * work.radius + work.excursion + usual, work.periodic_side);
+  work.grid.shape(count, 2.0 * work.radius + work.excursion + usual, work.periodic.period);
   work.grid.sort(count, middle, work.choice.scratch(count));
 
   work.since.assign(count, 0.0);
@@ -47,6 +47,7 @@ void load_bodies(Work& work, const MiddleOfGas& middle) {
   }
 }
 
+template <bool Periodic>
 void load_grains(Work& work, const MiddleOfGas& middle_of_gas) {
   const SandState& sand = *work.sand;
   double fastest = 0.0, largest = 0.0;
@@ -60,14 +61,14 @@ void load_grains(Work& work, const MiddleOfGas& middle_of_gas) {
   // The middles of the paths of a grain and a body that meet are no farther apart than this; the factor leaves room for
   // bodies that turn towards another grain within the sub-step.
   const double reach = contact + work.excursion_grain + 2.0 * work.excursion;
-  work.near_map.mark(work.count(), middle_of_gas, reach);
+  work.near_map.mark(work.count(), middle_of_gas, reach, work.periodic.period);
   const auto middle = [&](std::size_t i) { return sand.position[i] + sand.velocity[i] * (0.5 * work.h); };
   std::vector<Index> near;
   for (std::size_t i = 0; i < sand.size(); ++i)
-    if (work.near_map.near(middle(i))) near.push_back(static_cast<Index>(i));
+    if (work.near_map.near<Periodic>(middle(i))) near.push_back(static_cast<Index>(i));
 
   const std::size_t count = near.size();
-  work.grain_grid.shape(count, contact + work.excursion_grain + work.excursion);
+  work.grain_grid.shape(count, contact + work.excursion_grain + work.excursion, work.periodic.period);
   std::vector<Index> scratch(count);
   work.grain_grid.sort(
       count, [&](std::size_t k) { return middle(near[k]); }, scratch);
@@ -109,7 +110,8 @@ void load(Work& work) {
   work.radius = work.gas->radius, work.mass = work.gas->mass;
   load_bodies(work, middle);
   work.grain.clear();
-  if (work.sand != nullptr && work.sand->size() > 0) load_grains(work, middle);
+  if (work.sand != nullptr && work.sand->size() > 0)
+    work.periodic.on() ? load_grains<true>(work, middle) : load_grains<false>(work, middle);
 
   work.choice.reset(count);
   work.mark.reset(count);

@@ -22,9 +22,8 @@ struct Due {
       sheet;  // grains by place of the grain, the others by place of the body, pairs by one of the two
 };
 
-Vec3 wrapped(const Work& work, Vec3 gap) {
-  if (work.periodic_side <= 0.0) return gap;
-  return nearest_image<true>(gap, work.periodic_side);
+Vec3 nearest(const Work& work, const Vec3& gap) {
+  return work.periodic.on() ? nearest_image(gap, work.periodic.period) : gap;
 }
 
 CounterRandom random_of_pair(const Work& work, Index id_a, Index id_b) {
@@ -60,7 +59,7 @@ double collide(Work& work, Index i, Index j, double time) {
   if (work.id(j) < work.id(i)) std::swap(i, j);
   const Path a = work.path(i), b = work.path(j);
   const Vec3 closing = b.velocity - a.velocity;
-  const Vec3 gap = wrapped(work, b.start - a.start) + closing * time;
+  const Vec3 gap = nearest(work, b.start - a.start) + closing * time;
   const Vec3 n = line_of_centres(gap, closing);
   const double before = dot(closing, n), inverse_mass = 1.0 / work.mass, mu = 0.5 * work.mass;
   double after = -before;
@@ -151,7 +150,7 @@ void resolve_grains(Work& work, const std::vector<Index>& grains, GasCollideCoun
     const double time = work.choice.time(p), inverse_mass = 1.0 / work.mass;
     const double inverse_grain = 1.0 / work.sand->mass_of(work.grain[q].source);
     const Vec3 closing = grain.velocity - body.velocity;
-    const Vec3 n = line_of_centres(grain.start - body.start + closing * time, closing);
+    const Vec3 n = line_of_centres(nearest(work, grain.start - body.start) + closing * time, closing);
     const double before = dot(closing, n);
     const double impulse = pair_impulse(reduced_mass(inverse_mass, inverse_grain), before, -before);
     deflect(work, p, n * (-impulse * inverse_mass), time);
@@ -192,7 +191,7 @@ void resolve_unreleased(Work& work, std::vector<Index>& bodies, GasCollideCounts
     const Choice choice = work.choice.of(p);
     const Index body = work.source(p), target = work.source(choice.partner);
     const Path path = work.path(p);
-    const Vec3 gap = wrapped(work, gas.position[target] - path.start) - path.velocity * choice.time;
+    const Vec3 gap = nearest(work, gas.position[target] - path.start) - path.velocity * choice.time;
     const Vec3 n = line_of_centres(gap, -path.velocity);
     CounterRandom random = random_of_pair(work, gas.id[body], gas.id[target]);
     const Absorbed taken =
@@ -208,13 +207,14 @@ void resolve_unreleased(Work& work, std::vector<Index>& bodies, GasCollideCounts
 
 /// Hits on the sheet one after the other. Each moves the sheet, so the next one is looked up again: the wall has
 /// receded a little, the hit comes a little later; if it is gone, the body looks for another one.
+template <bool Periodic>
 void resolve_sheet(Work& work, std::vector<Index>& bodies, GasCollideCounts& counts) {
   in_order_of_time(work, bodies);
   for (const Index p : bodies) {
     const Path body = work.path(p);
     double time = no_impact;
     SheetPoint where;
-    if (!work.sheet->first_hit(body.start, body.velocity, work.radius, body.since, work.h, time, where)) {
+    if (!first_hit_on_sheet<Periodic>(work, body, work.h, time, where)) {
       work.choice.forget(p);
       work.stale.push_back(p);
       continue;
@@ -245,7 +245,8 @@ void resolve(Work& work, GasCollideCounts& counts) {
   resolve_grains(work, due.grains, counts);
   resolve_planes(work, due.planes, counts);
   resolve_unreleased(work, due.unreleased, counts);
-  if (work.sheet != nullptr) resolve_sheet(work, due.sheet, counts);
+  if (work.sheet == nullptr) return;
+  work.periodic.on() ? resolve_sheet<true>(work, due.sheet, counts) : resolve_sheet<false>(work, due.sheet, counts);
 }
 
 }  // namespace standoff::particles::gas

@@ -22,35 +22,36 @@ bool earlier_pair(double time, Index id, Index other, double than_time, Index th
 }
 
 /// Calls look(k) with every body of [begin, end) that the probe may meet.
-template <Partner Kind, class Look>
+template <Partner Kind, bool Periodic, class Look>
 [[gnu::always_inline]] inline void look_in_run(const Lanes& lanes, Index begin, Index end, const Probe& probe,
                                                Look&& look) {
   for (Index q = begin; q < end; q += 8)
-    for (unsigned hits = hit_in_time<Kind>(lanes, q, probe); hits != 0; hits &= hits - 1)
+    for (unsigned hits = hit_in_time<Kind, Periodic>(lanes, q, probe); hits != 0; hits &= hits - 1)
       if (const Index k = q + static_cast<Index>(std::countr_zero(hits)); k < end) look(k);
 }
 
+template <bool Periodic>
 [[gnu::always_inline]] inline Probe probe_of(const Work& work, const Lanes& lanes, const Path& path, double until,
                                              double contact) {
   const double per_step = work.per_step;
-  return {lanes,   path.start,        path.velocity * work.h, path.since * per_step, until * per_step,
-          contact, work.periodic_side};
+  Probe probe(lanes, path.start, path.velocity * work.h, path.since * per_step, until * per_step, contact);
+  if constexpr (Periodic) probe.repeat(work.periodic.period);
+  return probe;
 }
 
 /// Earliest hit of body p on other gas; returns how many bodies were looked at.
 template <bool Periodic>
 long look_at_gas(Work& work, Index p) {
-  constexpr Partner kind = Periodic ? Partner::gas_in_periodic_cube : Partner::gas;
   const Path me = work.path(p);
   const double contact = 2.0 * work.radius;
-  Probe probe = probe_of(work, work.lanes, me, work.h, contact);
+  Probe probe = probe_of<Periodic>(work, work.lanes, me, work.h, contact);
   double until = work.h;
   Index partner = nobody;
   long looked_at = 0;
   const auto look = [&](Index q) {
     if (q == p) return;
     const Path other = work.path(q);
-    const Vec3 gap = nearest_image<Periodic>(other.start - me.start, work.periodic_side);
+    const Vec3 gap = nearest_image<Periodic>(other.start - me.start, work.periodic.period);
     const double time = impact_time(gap, other.velocity - me.velocity, contact, std::max(me.since, other.since), until);
     if (time > until) return;
     if (partner != nobody && !earlier_pair(time, work.id(p), work.id(q), until, work.id(partner))) return;
@@ -60,29 +61,31 @@ long look_at_gas(Work& work, Index p) {
   const double reach = contact + half_path(me, work.h) + work.excursion;
   work.grid.visit<Periodic>(middle_of_path(me, work.h), reach, [&](Index begin, Index end) {
     looked_at += end - begin;
-    look_in_run<kind>(work.lanes, begin, end, probe, look);
+    look_in_run<Partner::gas, Periodic>(work.lanes, begin, end, probe, look);
   });
   if (partner != nobody) work.choice.set(p, {until, partner, work.is_unreleased(partner) ? Hit::unreleased : Hit::gas});
   return looked_at;
 }
 
+template <bool Periodic>
 void look_at_grains(Work& work, Index p) {
   const Path me = work.path(p);
   Choice choice = work.choice.of(p);
   double until = std::min(choice.time, work.h);
-  Probe probe = probe_of(work, work.grain_lanes, me, until, work.radius + work.largest_grain);
+  Probe probe = probe_of<Periodic>(work, work.grain_lanes, me, until, work.radius + work.largest_grain);
   const auto look = [&](Index q) {
     const Path grain = work.grain_path(q);
-    const double time = impact_time(grain.start - me.start, grain.velocity - me.velocity,
-                                    work.radius + work.grain_radius(q), std::max(me.since, grain.since), until);
+    const Vec3 gap = nearest_image<Periodic>(grain.start - me.start, work.periodic.period);
+    const double time = impact_time(gap, grain.velocity - me.velocity, work.radius + work.grain_radius(q),
+                                    std::max(me.since, grain.since), until);
     if (!(time < choice.time)) return;
     until = time;
     choice = {time, q, Hit::grain};
     probe.narrow(until * work.per_step);
   };
   const double reach = work.radius + work.largest_grain + half_path(me, work.h) + work.excursion_grain;
-  work.grain_grid.visit<false>(middle_of_path(me, work.h), reach, [&](Index begin, Index end) {
-    look_in_run<Partner::grain>(work.grain_lanes, begin, end, probe, look);
+  work.grain_grid.visit<Periodic>(middle_of_path(me, work.h), reach, [&](Index begin, Index end) {
+    look_in_run<Partner::grain, Periodic>(work.grain_lanes, begin, end, probe, look);
   });
   if (choice.kind == Hit::grain) work.choice.set(p, choice);
 }
@@ -97,6 +100,7 @@ void look_at_planes(Work& work, Index p) {
   if (hit.time < work.choice.time(p)) work.choice.set(p, {hit.time, hit.axis, Hit::plane});
 }
 
+template <bool Periodic>
 void look_at_sheet(Work& work, Index p, double highest) {
   const Path me = work.path(p);
   const double lowest = me.start.z + std::min(me.velocity.z * me.since, me.velocity.z * work.h) - work.radius;
@@ -104,7 +108,7 @@ void look_at_sheet(Work& work, Index p, double highest) {
   const double known = work.choice.time(p), until = std::min(known, work.h);
   double time = no_impact;
   SheetPoint where;
-  if (work.sheet->first_hit(me.start, me.velocity, work.radius, me.since, until, time, where) && time < known)
+  if (first_hit_on_sheet<Periodic>(work, me, until, time, where) && time < known)
     work.choice.set(p, {time, 0, Hit::sheet});
 }
 
@@ -122,24 +126,26 @@ void offer(Work& work, Index p, Index partner, double time) {
 
 /// Grains look for gas only after they were hit: until then the gas has seen them. Unreleased gas is no partner of a
 /// grain.
+template <bool Periodic>
 void look_from_grain(Work& work, Index q) {
   const Path grain = work.grain_path(q);
   const double contact = work.radius + work.grain_radius(q);
   double best = work.h;
   Index partner = nobody;
-  Probe probe = probe_of(work, work.lanes, grain, best, contact);
+  Probe probe = probe_of<Periodic>(work, work.lanes, grain, best, contact);
   const auto look = [&](Index p) {
     const Path body = work.path(p);
-    const double time = impact_time(body.start - grain.start, body.velocity - grain.velocity, contact,
-                                    std::max(grain.since, body.since), best);
+    const Vec3 gap = nearest_image<Periodic>(body.start - grain.start, work.periodic.period);
+    const double time =
+        impact_time(gap, body.velocity - grain.velocity, contact, std::max(grain.since, body.since), best);
     if (!(time <= best) || work.is_unreleased(p)) return;
     if (time == best && partner != nobody && work.id(partner) < work.id(p)) return;
     best = time, partner = p;
     probe.narrow(best * work.per_step);
   };
   const double reach = contact + half_path(grain, work.h) + work.excursion;
-  work.grid.visit<false>(middle_of_path(grain, work.h), reach, [&](Index begin, Index end) {
-    look_in_run<Partner::gas>(work.lanes, begin, end, probe, look);
+  work.grid.visit<Periodic>(middle_of_path(grain, work.h), reach, [&](Index begin, Index end) {
+    look_in_run<Partner::gas, Periodic>(work.lanes, begin, end, probe, look);
   });
   if (partner == nobody || !(best < work.choice.time(partner))) return;
   work.choice.set(partner, {best, q, Hit::grain});
@@ -160,9 +166,9 @@ Looked look_around(Work& work) {
     ++searches;
     work.choice.forget(p);
     looked_at += look_at_gas<Periodic>(work, p);
-    if (grains) look_at_grains(work, p);
+    if (grains) look_at_grains<Periodic>(work, p);
     if (planes) look_at_planes(work, p);
-    if (sheet) look_at_sheet(work, p, highest);
+    if (sheet) look_at_sheet<Periodic>(work, p, highest);
   }
   return {searches, looked_at};
 }
@@ -173,19 +179,24 @@ void keep_waiting(Work& work, Index p) {
   work.waiting.push_back(p);
 }
 
-}  // namespace
-
-Looked search(Work& work) {
-  const Looked looked = work.periodic_side > 0.0 ? look_around<true>(work) : look_around<false>(work);
+template <bool Periodic>
+Looked search_images(Work& work) {
+  const Looked looked = look_around<Periodic>(work);
   work.offered.clear();
   if (work.round > 1) {  // in the first round everybody has looked
     for (const Index p : work.visit)
       if (const Choice choice = work.choice.of(p); choice.kind == Hit::gas) offer(work, p, choice.partner, choice.time);
-    for (const Index q : work.touched_grains) look_from_grain(work, q);
+    for (const Index q : work.touched_grains) look_from_grain<Periodic>(work, q);
   }
   for (std::size_t k = 0; k < work.visitors(); ++k) keep_waiting(work, work.visitor(k));
   for (const Index p : work.offered) keep_waiting(work, p);
   return looked;
+}
+
+}  // namespace
+
+Looked search(Work& work) {
+  return work.periodic.on() ? search_images<true>(work) : search_images<false>(work);
 }
 
 void choose_visitors(Work& work) {

@@ -21,6 +21,7 @@
 #include "particle_solver/state/surface_sheet.hpp"
 #include "particle_solver/step/gas_collide.hpp"
 #include "particle_solver/step/gas_lanes.hpp"
+#include "particle_solver/step/wrap.hpp"
 
 namespace standoff::particles::gas {
 
@@ -105,7 +106,7 @@ struct Work {
   // of the sub-step
   double h = 0.0, per_step = 0.0;  // s, 1/h
   double radius = 0.0, mass = 0.0, zeta = 0.0;
-  double periodic_side = 0.0;
+  PeriodicSides periodic;
   std::uint64_t seed = 0;
   std::uint32_t step = 0;
   int round = 0, threads = 1;
@@ -155,16 +156,13 @@ struct Work {
   Index visitor(std::size_t k) const { return round == 1 ? static_cast<Index>(k) : visit[k]; }
 };
 
-/// The separation of two centres, or of their nearest images in a periodic cube.
+/// First hit of a body on the sheet until `until`; false if there is none.
 template <bool Periodic>
-Vec3 nearest_image(Vec3 gap, double side) {
-  if constexpr (Periodic) {
-    const double inverse = 1.0 / side;
-    gap.x -= side * nearest_whole(gap.x * inverse);
-    gap.y -= side * nearest_whole(gap.y * inverse);
-    gap.z -= side * nearest_whole(gap.z * inverse);
-  }
-  return gap;
+bool first_hit_on_sheet(const Work& work, const Path& path, double until, double& time, SheetPoint& where) {
+  if constexpr (Periodic)
+    return first_hit_on_the_way(work.periodic, *work.sheet, path.start, path.velocity, work.radius, path.since, until,
+                                time, where);
+  return work.sheet->first_hit(path.start, path.velocity, work.radius, path.since, until, time, where);
 }
 
 /// Middle and half length of what is left of a path.

@@ -33,8 +33,8 @@ HardCoreCounts HardCore::run(SandState& sand, SandPairs& pairs) {
       continue;
     }
     const double other = sand.mass_of(j);
-    const Vec3 impulse = hard_core_impulse(sand.position[i] - sand.position[j], sand.velocity[i] - sand.velocity[j],
-                                           1.0 / mass + 1.0 / other);
+    const Vec3 impulse =
+        hard_core_impulse(contact.apart, sand.velocity[i] - sand.velocity[j], 1.0 / mass + 1.0 / other);
     if (impulse == Vec3{}) continue;
     sand.velocity[i] += impulse / mass, sand.velocity[j] -= impulse / other;
     ++counts.hits;

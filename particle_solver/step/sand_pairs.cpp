@@ -6,6 +6,7 @@
 #include <omp.h>
 
 #include "coupling/base/stop.hpp"
+#include "particle_solver/kernels/periodic_images.hpp"
 #include "particle_solver/search/grain_cells.hpp"
 #include "particle_solver/search/grain_drift.hpp"
 #include "particle_solver/step/sand_pairs_pass.hpp"
@@ -82,8 +83,10 @@ bool SandPairs::Impl::same_grains(const SandState& sand) const {
 
 /// The shortest of a displacement and its periodic images.
 Vec3 shortest(const Vec3& d, const Vec3& box) {
-  return {d.x - box.x * nearest_integer(d.x / box.x), d.y - box.y * nearest_integer(d.y / box.y),
-          d.z - box.z * nearest_integer(d.z / box.z)};
+  const auto along = [](double a, double length) {
+    return length > 0.0 ? a - length * nearest_integer(a / length) : a;
+  };
+  return {along(d.x, box.x), along(d.y, box.y), along(d.z, box.z)};
 }
 
 /// New positions and what changed since the last call; boxes of displacements since the list was made.
@@ -117,7 +120,9 @@ void SandPairs::Impl::moves_of_changed_set(SandState& sand) {
   std::fill(sand.force.begin(), sand.force.end(), Vec3{});
   for (std::size_t i = 0; i < id.size(); ++i) {
     const std::uint32_t s = place[id[i]];
-    if (s != GrainHistory::nobody) sand.force[s] = sand.position[s] - Vec3{grains[i].x, grains[i].y, grains[i].z};
+    if (s == GrainHistory::nobody) continue;
+    const Vec3 move = sand.position[s] - Vec3{grains[i].x, grains[i].y, grains[i].z};
+    sand.force[s] = options.periodic_box ? shortest(move, box) : move;
   }
 }
 
@@ -206,7 +211,8 @@ void SandPairs::Impl::make_lists(const SandState& sand, std::span<const Vec3> at
     grains[i] = {at[s].x, at[s].y, at[s].z, sand.radius_of(s)};
   }
   old_place = std::vector<std::uint32_t>();
-  list_grain_pairs(cells, grains, {cutoff, skin, radii, springs, periodic, options.threads}, blocks);
+  list_grain_pairs(cells, grains, {cutoff, skin, radii, springs, periodic, period_of(box).per_length, options.threads},
+                   blocks);
   if (springs && !history.empty()) {
     history.apply(blocks, old_index, options.threads);
     books.friction_loss += 0.5 * options.law.stiffness * history.finish();
@@ -233,7 +239,7 @@ PassInput SandPairs::Impl::pass_input(double dt) const {
   if (in.law.damping > 0.0) in.dashpot_per_step = dashpot_over_step(in.law, 2.0 / lightest, dt);
   if (options.periodic_box) {
     in.box = box, in.box_change = box - old_box;
-    in.per_box = {1.0 / box.x, 1.0 / box.y, 1.0 / box.z};
+    in.per_box = period_of(box).per_length;
   }
   return in;
 }
@@ -271,8 +277,10 @@ void SandPairs::Impl::deep_in_block(const GrainBlock& block, double share, std::
     if (pair.i > pair.j) return;
     const GrainRecord &a = grains[pair.i], &b = grains[pair.j];
     const double core = share * (a.w + b.w);
-    if (squared_norm(Vec3{a.x - b.x, a.y - b.y, a.z - b.z}) < core * core)
-      found.push_back({order[pair.i], order[pair.j], DeepContact::With::grain});
+    Vec3 apart{a.x - b.x, a.y - b.y, a.z - b.z};
+    if (options.periodic_box) apart = shortest(apart, box);
+    if (squared_norm(apart) < core * core)
+      found.push_back({order[pair.i], order[pair.j], DeepContact::With::grain, apart});
   };
   // Where there are springs, a pair that touches has one.
   if (options.law.friction > 0.0)
@@ -281,8 +289,8 @@ void SandPairs::Impl::deep_in_block(const GrainBlock& block, double share, std::
     block.for_each_pair(look);
   for (std::uint32_t i = block.begin; options.mirrors.on && i < block.end; ++i) {
     const GrainRecord& grain = grains[i];
-    if (grain.x < share * grain.w) found.push_back({order[i], order[i], DeepContact::With::image_x});
-    if (grain.y < share * grain.w) found.push_back({order[i], order[i], DeepContact::With::image_y});
+    if (grain.x < share * grain.w) found.push_back({order[i], order[i], DeepContact::With::image_x, {}});
+    if (grain.y < share * grain.w) found.push_back({order[i], order[i], DeepContact::With::image_y, {}});
   }
 }
 

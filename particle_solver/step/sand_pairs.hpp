@@ -33,7 +33,7 @@ double recommended_step(const GrainLaw& law, double mass);
 struct SandPairsOptions {
   GrainLaw law;  // friction = 0: no tangential springs exist; damping = 0: no dashpot
   MirrorPlanes mirrors;
-  std::optional<Vec3> periodic_box;  // m, a unit cell with its corner at the origin; positions need not be wrapped
+  std::optional<Vec3> periodic_box;  // m, lengths of a unit cell, or of a scene that repeats (z: 0)
   double skin = 0.0;                 // in mean diameters; 0: adapted to how often lists are made
   int threads = 1;
 };
@@ -78,6 +78,7 @@ struct DeepContact {
   enum class With : std::uint8_t { grain, image_x, image_y };
   std::uint32_t i = 0, j = 0;  // j = i for an image
   With with = With::grain;
+  Vec3 apart;  // m, two grains: from j to i, or to its nearest image
 };
 
 class SandPairs {
@@ -95,7 +96,7 @@ class SandPairs {
   /// the grain with most contacts (it binds above z = 12). Call after forces().
   double stable_step() const;
   /// Contacts at the positions of the last call of forces() whose centres are nearer than `share` of their reach, in an
-  /// order that does not depend on threads. Looks only where that call met one. Not for periodic cells.
+  /// order that does not depend on threads. Looks only where that call met one.
   void deep_contacts(double share, std::vector<DeepContact>& contacts) const;
   /// Changes the lengths of the periodic box; grains keep their positions.
   void set_box(const Vec3& box);

@@ -7,16 +7,14 @@
 #include "particle_solver/step/detonate.hpp"
 #include "particle_solver/step/gas_drift.hpp"
 #include "particle_solver/step/sand_integrate.hpp"
+#include "particle_solver/step/wrap.hpp"
 
 namespace standoff::particles {
 namespace {
 
-bool closed_box(const CaseSpec& spec) {
-  return spec.domain.boundaries == "reflecting";
-}
-
 BoundaryOptions boundary_options(const CaseSpec& spec, int threads) {
-  return {spec.domain.lower, spec.domain.upper, spec.run.quarter_symmetry, threads, closed_box(spec)};
+  const DomainSpec& domain = spec.domain;
+  return {domain.lower, domain.upper, spec.run.quarter_symmetry, threads, domain.closed(), domain.repeats()};
 }
 
 GasCollideOptions gas_options(const CaseSpec& spec, int threads) {
@@ -24,9 +22,16 @@ GasCollideOptions gas_options(const CaseSpec& spec, int threads) {
   options.internal_energy = spec.effect("internal_energy");
   options.seed = spec.run.seed;
   options.mirrors.on = spec.run.quarter_symmetry;
-  options.walls = reflecting_planes(false, closed_box(spec), spec.domain.lower, spec.domain.upper);
+  options.walls = reflecting_planes(false, spec.domain.closed(), spec.domain.lower, spec.domain.upper);
+  options.periodic = periodic_sides(spec.domain.repeats(), spec.domain.lower, spec.domain.upper);
   options.threads = threads;
   return options;
+}
+
+double fastest(const std::vector<Vec3>& velocities) {
+  double square = 0.0;
+  for (const Vec3& v : velocities) square = std::max(square, squared_norm(v));
+  return std::sqrt(square);
 }
 
 /// Number of equal steps that fill `span` with none above `limit`.
@@ -38,9 +43,10 @@ long steps_to_fill(double span, double limit) {
 
 TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
     : scene_(scene), boundaries_(boundary_options(spec, threads)), threads_(threads) {
+  sides_ = periodic_sides(spec.domain.repeats(), spec.domain.lower, spec.domain.upper);
   if (scene.has_gas) {
     gas_ = std::make_unique<GasCollide>(gas_options(spec, threads));
-    gas_step_ = gas_->suggest_step(scene.gas, last_gas_, 0.0, spec.run.until);
+    gas_step_ = gas_->suggest_step(scene.gas, last_gas_, 0.0, std::min(spec.run.until, image_step_limit()));
   }
   if (scene.has_sand) {
     pairs_ = std::make_unique<SandPairs>(*scene.sand_law);
@@ -54,9 +60,10 @@ TimeLoop::TimeLoop(const CaseSpec& spec, Scene& scene, int threads)
   if (scene.has_air) {
     air_collide_ = std::make_unique<AirCollide>(spec.run.seed, threads);
     air_drift_ = std::make_unique<AirDrift>(
-        reflecting_planes(spec.run.quarter_symmetry, closed_box(spec), spec.domain.lower, spec.domain.upper), threads);
+        reflecting_planes(spec.run.quarter_symmetry, spec.domain.closed(), spec.domain.lower, spec.domain.upper),
+        threads, sides_);
     air_boundaries_ =
-        std::make_unique<AirBoundaries>(AirBoundariesOptions{spec.run.seed, spec.effect("ambient_pressure")});
+        std::make_unique<AirBoundaries>(AirBoundariesOptions{spec.run.seed, spec.effect("ambient_pressure"), sides_});
   }
   compose();
 }
@@ -122,6 +129,7 @@ void TimeLoop::compose() {
       scene_.sheet.drift(h);
     });
   }
+  if (sides_.on()) add(end_step_, "wrap", [this, gas, sand](double, double) { wrap(sides_, gas, sand); });
   if (sand) {
     add(end_step_, "sand_pairs", [this](double, double h) { pairs_->forces(scene_.sand, h); });
     add(end_step_, "sand_integrate", kick);
@@ -176,7 +184,8 @@ void TimeLoop::step(double time, double dt, long gas_steps) {
     ++totals_.sub_steps;
     totals_.particle_steps += static_cast<long>(scene_.gas.size());
   }
-  if (gas_ && scene_.gas.size() > 0) gas_step_ = gas_->suggest_step(scene_.gas, last_gas_, gas_step_, gas_step_cap_);
+  if (gas_ && scene_.gas.size() > 0)
+    gas_step_ = gas_->suggest_step(scene_.gas, last_gas_, gas_step_, std::min(gas_step_cap_, image_step_limit()));
   for (const Stage& stage : end_step_) stage(time, dt);
   totals_.particle_steps += static_cast<long>(scene_.sand.size());
   ++totals_.steps;
@@ -186,14 +195,18 @@ void TimeLoop::step(double time, double dt, long gas_steps) {
 
 /// Nothing flies farther than a cell of the air before it meets what is there.
 double TimeLoop::air_step_limit() const {
-  const auto fastest = [](const GasState& gas) {
-    double square = 0.0;
-    for (const Vec3& v : gas.velocity) square = std::max(square, squared_norm(v));
-    return std::sqrt(square);
-  };
   const Air& air = *scene_.air;
-  const double speed = std::max(fastest(scene_.gas), fastest(air.particles)), cell = air.cells.width().z;
+  const double speed = std::max(fastest(scene_.gas.velocity), fastest(air.particles.velocity));
+  const double cell = air.cells.width().z;
   return speed > 0.0 ? cell / speed : std::numeric_limits<double>::infinity();
+}
+
+/// In a scene that repeats nothing flies farther than an eighth of the way to its own image, so that the image which is
+/// nearest at the start of a sub-step is the one that is met.
+double TimeLoop::image_step_limit() const {
+  if (!sides_.on()) return std::numeric_limits<double>::infinity();
+  const double speed = std::max(fastest(scene_.gas.velocity), fastest(scene_.sand.velocity));
+  return speed > 0.0 ? 0.125 * sides_.period.shortest() / speed : std::numeric_limits<double>::infinity();
 }
 
 void TimeLoop::fill(double begin, double span) {

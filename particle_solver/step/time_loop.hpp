@@ -4,7 +4,7 @@
 //   one sand step dt                                                          one gas sub-step h = dt / n
 //   sand_integrate (half kick) -> stages of effects/ -> surface_contact -> boundaries -> n x [ detonate -> gas_collide
 //   -> gas_drift ]
-//                  -> sand_pairs -> sand_integrate (half kick) -> hard_core
+//                  -> wrap, if the scene repeats -> sand_pairs -> sand_integrate (half kick) -> hard_core
 // Air, where there is some, moves at the beginning of a window: air_collide -> air_drift -> air_boundaries.
 //
 // A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
@@ -16,6 +16,7 @@
 
 #include "coupling/base/stage_timer.hpp"
 #include "particle_solver/effects/particle_effect.hpp"
+#include "particle_solver/kernels/periodic_images.hpp"
 #include "particle_solver/ledger/particle_ledger.hpp"
 #include "particle_solver/scene/scene.hpp"
 #include "particle_solver/step/air_boundaries.hpp"
@@ -99,6 +100,7 @@ class TimeLoop {
   void step(double time, double dt, long gas_steps);
   double sand_step_limit() const;
   double air_step_limit() const;
+  double image_step_limit() const;
   void fill(double begin, double span);
   long gas_steps(double dt);
 
@@ -114,6 +116,7 @@ class TimeLoop {
   std::unique_ptr<AirCollide> air_collide_;
   std::unique_ptr<AirDrift> air_drift_;
   std::unique_ptr<AirBoundaries> air_boundaries_;
+  PeriodicSides sides_;
   Boundaries boundaries_;
   BoundaryBooks books_;
   LoopTotals totals_;

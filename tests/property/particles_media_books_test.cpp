@@ -1,4 +1,5 @@
-// Law: whatever meets whatever (products, air, dry or wet grains, the plate, its cover, mirrors, an open edge, walls),
+// Law: whatever meets whatever (products, air, dry or wet grains, the plate, its cover, mirrors, an open edge, walls,
+// images),
 // momentum is kept exactly by every hit and force pair: 1e-11 of the impulses exchanged (and of 1 N s, the products
 // carry hundreds), some 1e5 roundings. Energy is kept exactly by hits, and by velocity Verlet and the dashpots to a few
 // per mille: 1 % with grains, 1e-11 without. An exploding charge of 150 g in a box whose sides it reaches, over a plate
@@ -104,7 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Media{"none", "on", "open", "none"}, Media{"none", "on", "reflecting", "quarter"},
                     Media{"dry", "off", "reflecting", "quarter"}, Media{"dry", "on", "open", "none"},
                     Media{"wet", "off", "open", "quarter"}, Media{"wet", "on", "reflecting", "none"},
-                    Media{"dry", "on", "reflecting", "quarter"}));
+                    Media{"dry", "on", "reflecting", "quarter"}, Media{"none", "off", "periodic", "none"},
+                    Media{"dry", "on", "periodic", "none"}, Media{"wet", "off", "periodic", "none"}));
 
 }  // namespace
 }  // namespace standoff::particles

@@ -3,10 +3,8 @@
 // bytes of the whole state at the end, so no tolerance. Only the seconds of the stages differ; they are left out.
 #include <gtest/gtest.h>
 
-#include "coupling/base/state_archive.hpp"
-#include "particle_solver/step/time_loop.hpp"
 #include "tests/unit/case_folder.hpp"
-#include "tests/unit/particles_surface_builders.hpp"
+#include "tests/unit/particles_side.hpp"
 
 namespace standoff::particles {
 namespace {
@@ -39,58 +37,18 @@ constexpr const char* dry_soil =
 constexpr const char* wet_soil =
     "kind = \"wet\"\ninner_radius = \"30 mm\"\nouter_radius = \"76.2 mm\"\nparticles = 1000\n";
 
-struct Side {
-  Side(const CaseSpec& spec, int threads)
-      : mesh(test::sheet_mesh(8, 0.0, 0.203, 1e-2,
-                              [](double x, double y) {
-                                return Vec3{x, y, 0.0};
-                              })),
-        motion(test::at_rest(mesh)),
-        scene(build_scene(spec, mesh, threads)),
-        loop(spec, scene, threads) {}
+using standoff::particles::test::Side;
 
-  /// Windows [first, last); the surface gives way at a steady pace, so that the local answer matters too.
-  void run(int first, int last) {
-    for (int k = first; k < last; ++k) {
-      for (std::size_t n = 0; n < motion.position.size(); ++n) {
-        motion.velocity[n] = {0.0, 0.0, -20.0};
-        motion.position[n] = mesh.position[n] + Vec3{0.0, 0.0, -20.0 * window * k};
-      }
-      scene.sheet.begin_window(motion, true);
-      loop.advance(window * k, window);
-      scene.sheet.collect_load(window, load);
-    }
-  }
-  std::string saved() {
-    StateWriter writer;
-    writer(loop);
-    return writer.bytes();
-  }
-  void read(const std::string& bytes) {
-    StateReader reader(bytes);
-    reader(loop);
-    EXPECT_TRUE(reader.at_end());
-  }
-  /// The state without the seconds of its stages, which are the only thing that differs between two runs.
-  std::string state() {
-    loop.forget_times();
-    return saved();
-  }
-
-  static constexpr double window = 2e-6;  // s
-  SurfaceMesh mesh;
-  SurfaceMotion motion;
-  Scene scene;
-  TimeLoop loop;
-  SurfaceLoad load;
-};
+SurfaceMesh quarter_of_the_plate() {
+  return test::sheet_mesh(8, 0.0, 0.203, 1e-2, [](double x, double y) { return Vec3{x, y, 0.0}; });
+}
 
 void expect_same_bits(const CaseSpec& spec, int stop_at, int end, int threads) {
-  Side whole(spec, 1);
+  Side whole(spec, 1, quarter_of_the_plate());
   whole.run(0, stop_at);
   const std::string saved = whole.saved();
   whole.run(stop_at, end);
-  Side resumed(spec, threads);
+  Side resumed(spec, threads, quarter_of_the_plate());
   resumed.read(saved);
   resumed.run(stop_at, end);
   EXPECT_EQ(resumed.state() == whole.state(), true) << "stopped after " << stop_at << " windows";
@@ -100,7 +58,7 @@ void expect_same_bits(const CaseSpec& spec, int stop_at, int end, int threads) {
 
 TEST(ResumedParticles, StoppedWhileTheChargeDetonates_GoOnWithTheSameBits) {
   const CaseSpec spec = buried_charge(dry_soil);
-  Side probe(spec, 1);
+  Side probe(spec, 1, quarter_of_the_plate());
   probe.run(0, 3);
   EXPECT_FALSE(probe.scene.gas.all_released()) << "6 us: the front is still in the charge";
   EXPECT_GT(probe.loop.totals().sub_steps, 0);
@@ -109,7 +67,7 @@ TEST(ResumedParticles, StoppedWhileTheChargeDetonates_GoOnWithTheSameBits) {
 
 TEST(ResumedParticles, StoppedWithSlidingContacts_GoOnWithTheSameBits) {
   const CaseSpec spec = buried_charge(dry_soil);
-  Side probe(spec, 1);
+  Side probe(spec, 1, quarter_of_the_plate());
   probe.run(0, 20);
   EXPECT_GT(probe.loop.sand_books().friction_loss, 0.0);
   EXPECT_GT(probe.loop.sand_books().elastic_energy, 0.0);
@@ -118,7 +76,7 @@ TEST(ResumedParticles, StoppedWithSlidingContacts_GoOnWithTheSameBits) {
 
 TEST(ResumedParticles, AwakeAirBesideStillAir_GoesOnWithTheSameBits) {
   const CaseSpec spec = buried_charge(dry_soil, "on");
-  Side probe(spec, 1);
+  Side probe(spec, 1, quarter_of_the_plate());
   probe.run(0, 20);
   EXPECT_GT(probe.scene.air->particles.size(), 100u);
   expect_same_bits(spec, 20, 30, 2);
@@ -134,7 +92,7 @@ TEST(ResumedParticles, BareChargeOnThePlate_GoesOnWithTheSameBits) {
 
 TEST(ResumedParticles, StateOfAnotherSurface_IsRefused) {
   const CaseSpec spec = buried_charge(no_soil);
-  Side side(spec, 1);
+  Side side(spec, 1, quarter_of_the_plate());
   const SurfaceMesh other = test::sheet_mesh(4, 0.0, 0.203, 1e-2, [](double x, double y) { return Vec3{x, y, 0.0}; });
   Scene scene = build_scene(spec, other, 1);
   TimeLoop loop(spec, scene, 1);

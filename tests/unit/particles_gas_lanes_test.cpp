@@ -66,7 +66,7 @@ TEST(GasCellGrid, RowsThatAByteCannotCount_AreSortedAndFound) {
     points[i] = i % 2 ? Vec3{uniform(random), uniform(random), uniform(random)} : Vec3{0.5, 0.5, 0.5};
   for (const double side : {0.0, 1.0}) {
     GasCellGrid grid;
-    grid.shape(points.size(), 0.1, side);
+    grid.shape(points.size(), 0.1, period_of({side, side, side}));
     grid.sort(points);
     std::vector<int> found(points.size());
     const auto look = [&](std::uint32_t begin, std::uint32_t end) {

@@ -31,7 +31,7 @@ TEST(GasBox_AllTranslationalStart_RelaxesToEquilibrium, ShareAndMoments) {
   GasState gas = test::lattice_gas(8, 0.20, 1.4, 0.0);
   for (Vec3& v : gas.velocity) v *= 1.0 / norm(v);  // one speed only: far from a Maxwellian
   GasCollideOptions options;
-  options.periodic_side = 1.0;
+  options.periodic.period = period_of({1.0, 1.0, 1.0});
   GasCollide collide(options);
   Moments mean;
   constexpr int snapshots = 20;
@@ -58,7 +58,7 @@ TEST(GasBox_WithoutExchange_KeepsItsReservoirs, KineticEnergyIsConstant) {
   GasState gas = test::lattice_gas(5, 0.20, 1.4, 0.5);
   const std::vector<double> before = gas.internal_energy;
   GasCollideOptions options;
-  options.periodic_side = 1.0, options.internal_energy = false;
+  options.periodic.period = period_of({1.0, 1.0, 1.0}), options.internal_energy = false;
   GasCollide collide(options);
   const double kinetic = gas_totals(gas).kinetic;
   long hits = 0;

@@ -18,7 +18,7 @@ Measured measure(double fill, int warm_up, int steps) {
   constexpr int blocks = 16;
   GasState gas = test::lattice_gas(7, fill, 1.4, 2.0 / 3.0);
   GasCollideOptions options;
-  options.periodic_side = 1.0;
+  options.periodic.period = period_of({1.0, 1.0, 1.0});
   GasCollide collide(options);
   double virial = 0.0, work = 0.0;  // work: sum of 3 N k T h
   std::vector<double> z;

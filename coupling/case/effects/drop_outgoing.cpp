@@ -24,7 +24,8 @@ double missing_share(const CaseSpec& spec) {
 /// that: so it is off unless a case states it.
 EffectFinding find(const CaseSpec& spec) {
   if (!has_sand(spec)) return nothing("there is no sand");
-  if (spec.domain.boundaries != "open") return nothing("the box is closed: grains come back");
+  if (spec.domain.closed()) return nothing("the box is closed: grains come back");
+  if (spec.domain.repeats()) return nothing("the scene repeats: grains come to the next plate");
   return {true, false,
           fmt::format("{:.0f} % of all directions from the charge miss plate and cover, but products may still push "
                       "grains that fly there",
