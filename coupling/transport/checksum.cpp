@@ -69,12 +69,13 @@ template <bool copying>
 __attribute__((target("sse4.2"))) Copied pass_over(const unsigned char* at, unsigned char* to, std::size_t size) {
   Stream first{0xFFFFFFFFu, 0};
   const auto advance = [&](std::size_t bytes) { size -= bytes, at += bytes, to += copying ? bytes : 0; };
+  const auto into = [&](std::size_t offset) { return copying ? to + offset : nullptr; };  // nowhere has no places in it
   for (; size >= 3 * stream_bytes; advance(3 * stream_bytes)) {
     Stream second{0, first.found}, third{0, 0};
     for (std::size_t i = 0; i < stream_bytes; i += 8) {
-      first.take<copying>(at + i, to + i);
-      second.take<copying>(at + stream_bytes + i, to + stream_bytes + i);
-      third.take<copying>(at + 2 * stream_bytes + i, to + 2 * stream_bytes + i);
+      first.take<copying>(at + i, into(i));
+      second.take<copying>(at + stream_bytes + i, into(stream_bytes + i));
+      third.take<copying>(at + 2 * stream_bytes + i, into(2 * stream_bytes + i));
     }
     first.found |= second.found | third.found;
     first.crc =

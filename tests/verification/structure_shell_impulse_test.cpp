@@ -49,7 +49,7 @@ TEST(ImpulsiveShell_Threads, OneAndTwo_GiveTheSameBits) {
 
 TEST(ImpulsiveShell_UnstableStep, BeyondTheLimit_ShowsInTheEnergyBalance) {
   PlateShell model(shell_case(8, true), 1);
-  const double limit = model.stable_step() / 0.9;
+  const double limit = model.stable_step() / step_safety;
   give_impulse(model, 130.0);
   const double energy = model.ledger().kinetic, start = model.ledger().balance();
   double worst = 0.0;

@@ -9,7 +9,6 @@
 namespace standoff::structure {
 namespace {
 
-constexpr double step_safety = 0.9;
 constexpr long steps_between_estimates = 50;
 constexpr long elements_per_thread = 64;  // below this, starting a thread costs more than it saves
 

@@ -8,7 +8,6 @@
 namespace standoff::structure {
 namespace {
 
-constexpr double step_safety = 0.9;
 constexpr double strain_rate_interval = 10e-6;  // s, the contract's definition of max_strain_rate
 
 }  // namespace
