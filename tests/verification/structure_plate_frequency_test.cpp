@@ -40,7 +40,8 @@ TEST(ClampedPlate_StableStep, AtRest_IsJustBelowTheLimitOfTheAssembledPlate) {
   }
   const double limit = 2.0 / std::sqrt(largest);
   EXPECT_LT(model.stable_step(), (step_safety + 0.01) * limit) << "s, a share of a lower bound";
-  EXPECT_GT(model.stable_step(), (step_safety - 0.05) * limit) << "s; the element bound is within 2 % of the assembled limit";
+  EXPECT_GT(model.stable_step(), (step_safety - 0.05) * limit)
+      << "s; the element bound is within 2 % of the assembled limit";
 }
 
 }  // namespace

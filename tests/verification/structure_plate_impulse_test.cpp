@@ -45,8 +45,8 @@ TEST(ImpulsivePlate_UnstableStep, TwoPercentBeyondTheLimit_ShowsInTheEnergyBalan
   give_impulse(model, 130.0);
   double error = 0.0;
   try {
-    error =
-        fly(model, 0.2e-3, 1.03 / step_safety * 1.02).energy_error;  // the element bound lies 1.7 % below the assembled limit
+    error = fly(model, 0.2e-3, 1.03 / step_safety * 1.02)
+                .energy_error;  // the element bound lies 1.7 % below the assembled limit
   } catch (const std::runtime_error&) {
     error = 1.0;  // torn apart: noticed as well
   }
