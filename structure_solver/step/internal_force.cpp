@@ -109,6 +109,21 @@ ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step
   return total;
 }
 
+std::vector<double> InternalForce::enhanced_strains_at(std::span<const Vec3> u, double dt) const {
+  const std::size_t stride = count_ * static_cast<std::size_t>(choice_.layout.fields);
+  std::vector<double> strains;
+  std::vector<Pack4> history(stride), force(3 * count_);
+  for (std::size_t b = 0; b < enhanced_.size(); ++b) {
+    std::copy_n(history_.data() + b * stride, stride, history.data());
+    Pack4 alpha = enhanced_[b];
+    choice_.kernel(metal_, shapes_[b], {dt, true}, true, u.data(), &nodes_[b * 4 * count_], history.data(), &alpha,
+                   force.data());
+    for (int i = 0; i < 4; ++i) strains.push_back(lane(alpha, i));
+  }
+  strains.resize(static_cast<std::size_t>(mesh_.element_count()));
+  return strains;
+}
+
 void InternalForce::add_to(StateHash& hash) const {
   for (long e = 0; e < mesh_.element_count(); ++e)
     for (int q = 0; q < points(); ++q)

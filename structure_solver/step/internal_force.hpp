@@ -57,6 +57,8 @@ class InternalForce {
   double enhanced_strain(long e) const {
     return lane(enhanced_[static_cast<std::size_t>(e / 4)], static_cast<int>(e % 4));
   }
+  /// Of every element with 8 nodes: the enhanced strain it would have at u after a step dt. Writes nothing.
+  std::vector<double> enhanced_strains_at(std::span<const Vec3> u, double dt) const;
   /// Gauss points of an element; as many as nodes.
   int points() const { return static_cast<int>(count_); }
   const HistoryLayout& layout() const { return choice_.layout; }

@@ -1,7 +1,12 @@
 // What a frame shows, against closed forms: a plate bent into a state of uniform stretch, u = H X with uniform H and
 // velocity H X / T, has in every cell the stress of Hooke's law (logarithmic strain ln(1 + a) on the axes), the rate
 // a / (T (1 + a)) and the thickness h (1 + c). Linear fields are exact in cubic elements: rounding of positions of 0.2
-// m over node distances of 1e-3 m, 1e-13 of strain; 1e-9 of stress asked.
+// m over node distances of 1e-3 m, 1e-13 of strain; 1e-9 of stress asked. Bricks of 8 nodes have no field of their own
+// for bending: rolled into a cylinder, w = kappa x^2 / 2, they strain by d = kappa z along x, nothing across the plate
+// by shear, and -nu / (1 - nu) d through it, because no stress acts there. All Gauss points lie at |z| = h / (2
+// sqrt(3)). The frame's differences and the alpha of the element leave 1e-4: its tolerance, 1e-11 of strain, over
+// strains of 1e-6 in a step.
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -44,6 +49,26 @@ TEST(PlateFrame_UniformStretch, FreePlate_ShowsHookesStressRateAndThickness) {
   for (const char* name : {"stress_xy_Pa", "stress_yz_Pa", "stress_zx_Pa"})
     EXPECT_NEAR(shown.at(name), 0.0, 1e-9 * 195e9 * a) << name;
   EXPECT_EQ(shown.at("plastic_strain"), 0.0) << "the state was meant to stay elastic";
+}
+
+TEST(PlateFrame_Bending, BricksRolledIntoACylinder_ShowTheRateOfTheirOwnStrains) {
+  CaseSpec spec = testing::plate_case(2, false);
+  spec.plate.model = "plate_hex8", spec.plate.edges = "free";
+  const auto model = make_structural_model(spec, 1);
+  auto& plate = dynamic_cast<PlateHex64&>(*model);
+  const double rate = 1e4, middle = -0.5 * spec.plate.size.z;  // 1/(m s), curvature gained
+  std::vector<double> u(static_cast<std::size_t>(plate.relaxation()->dofs()), 0.0), v;
+  for (const Vec3& x : plate.plate().mesh().position)
+    for (const double move : {-rate * x.x * (x.z - middle), 0.0, 0.5 * rate * x.x * x.x}) v.push_back(move);
+  plate.relaxation()->set_state(u, v);
+  const double nu = spec.plate.material.poissons_ratio, through = -nu / (1.0 - nu), mean = (1.0 + through) / 3.0;
+  const double d = rate * spec.plate.size.z / (2.0 * std::sqrt(3.0));
+  const double square = std::pow(1.0 - mean, 2) + mean * mean + std::pow(through - mean, 2);
+  const StructureFrame frame = plate.frame();
+  const auto column =
+      std::ranges::find(frame.cell_data, "strain_rate_per_s", [](const auto& data) { return data.first; });
+  ASSERT_EQ(column->second.size(), 36u);
+  for (const double shown : column->second) EXPECT_NEAR(shown / (d * std::sqrt(2.0 / 3.0 * square)), 1.0, 1e-4);
 }
 
 TEST(PlateFrame_Effects, WhatIsOff_HasNoColumn) {

@@ -115,8 +115,58 @@ double equivalent_rate(const Mat3<double>& h_rate, const Mat3<double>& cofactor_
   return von_mises(rate) / 1.5;
 }
 
+/// Enhanced strain of an element with 8 nodes, and its rate in the step that follows.
+struct Enhanced {
+  double now = 0.0, rate = 0.0, interval = 0.0;  // -, 1/s, s
+};
+
+/// One an element; all zero with more nodes.
+std::vector<Enhanced> enhanced_strains(const PlateSolid& plate) {
+  const auto count = static_cast<std::size_t>(plate.mesh().element_count());
+  std::vector<Enhanced> strains(count);
+  if (plate.mesh().order() != 1) return strains;
+  const double dt = plate.stable_step();
+  std::vector<Vec3> ahead = plate.state().u;
+  for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += dt * plate.state().v[i];
+  const auto now = plate.forces().enhanced_strains_at(plate.state().u, 0.0);
+  const auto then = plate.forces().enhanced_strains_at(ahead, dt);
+  for (std::size_t e = 0; e < count; ++e)
+    strains[e] = {plate.forces().enhanced_strain(static_cast<long>(e)), (then[e] - now[e]) / dt, dt};
+  return strains;
+}
+
+/// Gradients of displacement and velocity at the Gauss points of an element, as the metal feels them.
+template <int N>
+struct Felt {
+  PointGradients<N> h, rate;
+};
+
 template <class Geometry>
-CellValues cell_values(const PlateSolid& plate, long e, const Geometry& geometry, double volume) {
+Felt<Geometry::per_edge> felt(const Geometry& geometry, const Nodal<Geometry::per_edge>& u,
+                              const Nodal<Geometry::per_edge>& velocity, const Enhanced&) {
+  return {gradients_of(geometry, u), gradients_of(geometry, velocity)};
+}
+
+/// With 8 nodes strains are assumed and enhanced, not linear in the displacements: rates by central differences.
+Felt<2> felt(const BoxGeometryOf<2>& box, const Nodal<2>& u, const Nodal<2>& velocity, const Enhanced& alpha) {
+  const auto moved_by = [&](double time) {
+    Nodal<2> moved;
+    for (int c = 0; c < 3; ++c)
+      for (int a = 0; a < 8; ++a) moved[c][a] = u[c][a] + time * velocity[c][a];
+    return hex8_gradients(moved, box.scale, alpha.now + time * alpha.rate);
+  };
+  Felt<2> result{moved_by(0.0), moved_by(0.5 * alpha.interval)};
+  const PointGradients<2> before = moved_by(-0.5 * alpha.interval);
+  for (std::size_t q = 0; q < 8; ++q)
+    for (int i = 0; i < 3; ++i)
+      for (int d = 0; d < 3; ++d)
+        result.rate[q].m[i][d] = (result.rate[q].m[i][d] - before[q].m[i][d]) / alpha.interval;
+  return result;
+}
+
+template <class Geometry>
+CellValues cell_values(const PlateSolid& plate, long e, const Geometry& geometry, double volume,
+                       const Enhanced& alpha) {
   const PlateMesh& mesh = plate.mesh();
   const InternalForce& forces = plate.forces();
   const Turn turn{std::cos(mesh.angle_to_first(e)), std::sin(mesh.angle_to_first(e))};
@@ -124,20 +174,18 @@ CellValues cell_values(const PlateSolid& plate, long e, const Geometry& geometry
   Nodal<N> u, velocity;
   nodal_values<N>(mesh, plate.state().u, e, turn, u);
   nodal_values<N>(mesh, plate.state().v, e, turn, velocity);
-  const PointGradients<N> moved = gradients_of(geometry, u), moving = gradients_of(geometry, velocity);
-  PointGradients<N> strained = moved;  // what the metal feels
-  if constexpr (N == 2) strained = hex8_gradients(u, geometry.scale, forces.enhanced_strain(e));
+  const Felt<N> gradients = felt(geometry, u, velocity, alpha);
   CellValues v;
   for (int q = 0; q < Geometry::nodes; ++q) {
     const double share = geometry.weight(q) / volume;
     const auto i = static_cast<std::size_t>(q);
-    const Mat3<double>& h = strained[i];
+    const Mat3<double>& h = gradients.h[i];
     const Mat3<double> f = deformation_gradient(h), c = cofactor(f);
     const double j = rows(f, 0, c, 0), strain = forces.plastic_strain(e, q);
     const Sym3<double> s = cauchy_stress(forces, e, q, h, j);
     v.strain += share * strain, v.max_strain = std::max(v.max_strain, strain);
     v.temperature += share * forces.temperature(e, q);
-    v.strain_rate += share * equivalent_rate(moving[i], c, j);
+    v.strain_rate += share * equivalent_rate(gradients.rate[i], c, j);
     v.von_mises += share * von_mises(s);
     v.stress.xx += share * s.xx, v.stress.yy += share * s.yy, v.stress.zz += share * s.zz;
     v.stress.xy += share * s.xy, v.stress.yz += share * s.yz, v.stress.zx += share * s.zx;
@@ -185,16 +233,18 @@ StructureFrame plate_frame(const PlateSolid& plate) {
   frame.velocity = resample(mesh, plate.state().v);
   frame.position = resample(mesh, mesh.position);
   for (std::size_t i = 0; i < frame.position.size(); ++i) frame.position[i] += frame.displacement[i];
+  const std::vector<Enhanced> enhanced = enhanced_strains(plate);
   std::vector<CellValues> values;
   for (long e = 0; e < mesh.element_count(); ++e) {
     auto& cell = frame.cells.emplace_back();
     const BatchShape& shape = plate.forces().shape(e);
+    const Enhanced& alpha = enhanced[static_cast<std::size_t>(e)];
     with_nodes_per_edge(mesh.per_edge(), [&](auto n) {
       for (const int local : vtk_order<n()>) cell.push_back(mesh.element_node(e, local));
       if (shape.curved != nullptr)
-        values.push_back(cell_values(plate, e, *shape.curved, shape.curved->volume()));
+        values.push_back(cell_values(plate, e, *shape.curved, shape.curved->volume(), alpha));
       else
-        values.push_back(cell_values(plate, e, BoxGeometryOf<n()>::of_box(shape.box), shape.box.volume));
+        values.push_back(cell_values(plate, e, BoxGeometryOf<n()>::of_box(shape.box), shape.box.volume, alpha));
     });
   }
   for (const Column& column : columns(plate.forces().layout())) {
