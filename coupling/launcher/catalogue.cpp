@@ -68,7 +68,7 @@ bool is_label(const PresetValue& value) {
 }
 
 std::string cost_of(const StructuralModelEntry& model) {
-  return model.relative_cost > 0.0 ? fmt::format("{:.2g}", model.relative_cost) : "next to nothing";
+  return model.relative_cost > 0.0 ? fmt::format("{:.2g}", model.relative_cost) : "no windows: milliseconds in all";
 }
 
 OrderedJson end_json(double value) {
@@ -193,12 +193,13 @@ std::string presets_text() {
 OrderedJson models_json() {
   OrderedJson list = OrderedJson::array();
   for (const StructuralModelEntry& model : structural_models)
-    list.push_back({{"name", model.name},
-                    {"doc", model.doc},
-                    {"resolves", model.resolves},
-                    {"leaves_out", model.leaves_out},
-                    {"relative_cost", model.relative_cost},
-                    {"default", find_key("plate.model")->fallback == model.name}});
+    list.push_back(
+        {{"name", model.name},
+         {"doc", model.doc},
+         {"resolves", model.resolves},
+         {"leaves_out", model.leaves_out},
+         {"relative_cost", model.relative_cost > 0.0 ? OrderedJson(model.relative_cost) : OrderedJson(nullptr)},
+         {"default", find_key("plate.model")->fallback == model.name}});
   return list;
 }
 
@@ -209,8 +210,13 @@ std::string models_text() {
                         find_key("plate.model")->fallback == model.name ? " (default)" : "", model.doc, model.resolves,
                         model.leaves_out, cost_of(model));
   return text +
-         "choose with plate.model = \"NAME\" or --structure NAME; cost: seconds of the structure process in the "
-         "windows of dry_150mm --level coarse, over those of the default\n";
+         "choose with plate.model = \"NAME\" or --structure NAME; cost: processor time of the windows of dry_150mm "
+         "--level "
+         "coarse over that of the default, exchange apart (tests/validation/model_costs.py; a pipe: over that of the "
+         "plate "
+         "it is rolled from)\n"
+         "--structure replay:TAPE plays a recorded motion in place of a model: it computes nothing and costs the "
+         "exchange\n";
 }
 
 }  // namespace standoff::launch

@@ -13,7 +13,7 @@ namespace standoff::launch {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double gauss_points = 64.0;        // 4 x 4 x 4 in a cubic hexahedron
+constexpr double cubic_points = 64.0;        // 4 x 4 x 4 Gauss points in a cubic hexahedron
 constexpr double gauss_point_bytes = 200.0;  // per Gauss point
 
 double cube(double x) {
@@ -91,14 +91,22 @@ void plan_windows(const CaseSpec& spec, const CostConstants& c, CostPrediction& 
   p.structure_steps = p.windows * std::ceil(p.window / p.structure_step * (1.0 - 1e-9));
 }
 
+/// Gauss points that are simulated and keep a history.
+double points_of(const CaseSpec& spec, const CostPrediction& p) {
+  return structural_model(spec.plate.model).points * p.simulated(p.elements);
+}
+
 void plan_structure(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
+  const StructuralModelEntry& model = structural_model(spec.plate.model);
   const Vec3 edge = element_edges(spec.plate);
   const double shortest = std::min({edge.x, edge.y, edge.z});
   p.elements = static_cast<long>(spec.plate.elements[0]) * spec.plate.elements[1] * spec.plate.elements[2];
-  p.structure_step = c.structure_safety * c.hexahedron_courant * shortest / sound_speed(spec.plate.material);
+  p.structure_step =
+      model.relative_step * c.structure_safety * c.hexahedron_courant * shortest / sound_speed(spec.plate.material);
   plan_windows(spec, c, p);
-  const double points = gauss_points * p.simulated(p.elements);
-  p.structure_s = p.structure_steps * points * c.gauss_point_step;
+  const double cubic_steps = p.structure_steps * model.relative_step;  // what plate_hex64 would take
+  p.structure_s = model.relative_cost * cubic_steps * cubic_points * p.simulated(p.elements) * c.gauss_point_step;
+  const double points = points_of(spec, p);
   p.structure_bytes = points * gauss_point_bytes;
   if (spec.run.settle) p.relaxation_s = c.relaxation_calls * points * c.relaxation_call;
 }
@@ -230,7 +238,7 @@ SceneWork work_of(const CaseSpec& spec, const CostConstants& c, const CostPredic
   if (!spec.air.on) plan_air(in_air, c, air);
   SceneWork work;
   work.gas = p.simulated(p.charge_particles), work.grains = p.simulated(p.sand_particles);
-  work.air = air.awake_air / p.copies, work.points = gauss_points * p.simulated(p.elements);
+  work.air = air.awake_air / p.copies, work.points = points_of(spec, p);
   work.sand_steps = p.sand_steps, work.copies = p.copies, work.all_s = p.core_s();
   work.gas_s = p.gas_s, work.air_s = air.air_s, work.sand_s = p.sand_s;
   work.structure_s = p.structure_s, work.relaxation_s = p.relaxation_s;

@@ -2,16 +2,15 @@
 // What a case will cost before it runs: particles, steps, windows, memory, seconds, effect by effect. Pure arithmetic
 // on a CaseSpec and the constants of cost_constants.hpp.
 //
-//   spheres of gas      r = (3 b V0 / 4 pi N)^(1/3), v = sqrt(2 xi e), xi = 3 (gamma - 1) / 2      [Borvik 2011,
-//   sec. 3.2] gas sub-steps       integral dt / min(window, max(c1 d, c2 lambda) / v), lambda = V / (sqrt(2) pi d^2 N),
-//   V the bubble that
-//                       grows with the speed of its boundary: the gas itself, or a shell driven at the Gurney speed
-//                       sqrt(2 E / (M/C + 3/5)) (Gurney 1943, sphere)
-//   sand step           f 2 sqrt(m/k), k = (L/L0) k0, L the side of a cell of 1000 grains           [Borvik 2011,
-//   sec. 3.3] structure step      courant h / c, c the longitudinal wave speed, h the shortest edge of an element
+//   spheres of gas      r = (3 b V0 / 4 pi N)^(1/3), v = sqrt(2 xi e), xi = 3 (gamma - 1) / 2  [Borvik 2011, sec. 3.2]
+//   gas sub-steps       integral dt / min(window, max(c1 d, c2 lambda) / v), lambda = V / (sqrt(2) pi d^2 N), V the
+//                       bubble that grows with the speed of its boundary: the gas itself, or a shell driven at the
+//                       Gurney speed sqrt(2 E / (M/C + 3/5)) (Gurney 1943, sphere)
+//   sand step           f 2 sqrt(m/k), k = (L/L0) k0, L the side of a cell of 1000 grains      [Borvik 2011, sec. 3.3]
+//   structure step      courant h / c, c the longitudinal wave speed, h the shortest edge of an element; step,
+//                       price and points of other models in proportion (coupling/case/structural_models.hpp)
 //   window "auto"       a shear wave crosses at most one quad of the surface, and the plate moves at most a tenth of
-//   the
-//                       smallest particle radius
+//                       the smallest particle radius
 #include <optional>
 #include <string>
 #include <vector>

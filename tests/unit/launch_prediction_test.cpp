@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coupling/case/structural_models.hpp"
 #include "coupling/launcher/prediction.hpp"
 
 namespace standoff::launch {
@@ -30,6 +31,23 @@ TEST(Prediction, StructureStep_IsTheMeasuredOneOfThePlate) {
   // 0.1335 us for 64-node hexahedra of 3.4 mm thickness: an eigenvalue of the reference system; within 1 %.
   const CostPrediction p = predict_cost(sand_case(10000, 50000, 10), 2);
   EXPECT_NEAR(p.structure_step / CostConstants{}.structure_safety, 0.1335e-6, 0.01 * 0.1335e-6);
+}
+
+// Price and memory go with the chosen model, in the ratios of its table. A window of 50 us takes some eighty steps of
+// the longest; counting them in whole steps is off by one in eighty.
+TEST(Prediction, ChosenModel_IsPricedByItsOwnCostStepAndPoints) {
+  CaseSpec spec = sand_case(10000, 50000, 10);
+  spec.coupling.window_rule = CouplingSpec::Window::fixed, spec.coupling.window = 50e-6;
+  const CostPrediction cubic = predict_cost(spec, 2);
+  for (const StructuralModelEntry& model : structural_models) {
+    if (model.name == material_point_model) continue;
+    spec.plate.model = model.name;
+    const CostPrediction p = predict_cost(spec, 2);
+    EXPECT_NEAR(p.structure_step / cubic.structure_step, model.relative_step, 1e-12) << model.name;
+    EXPECT_NEAR(p.structure_s / cubic.structure_s, model.relative_cost, 0.015 * model.relative_cost) << model.name;
+    EXPECT_NEAR(p.structure_bytes / cubic.structure_bytes, model.points / 64.0, 1e-12) << model.name;
+    EXPECT_GT(p.structure_s, 0.0) << model.name;
+  }
 }
 
 TEST(Prediction, EightTimesTheGrains_HalveTheSandStep) {
