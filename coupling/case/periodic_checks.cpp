@@ -1,5 +1,3 @@
-#include "coupling/case/periodic_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling/case/periodic_checks.hpp"
 #include "coupling/case/soil_body.hpp"
 
 namespace standoff {
@@ -41,10 +40,11 @@ class PeriodicCheck {
     finding(spec_.run.quarter_symmetry, {"domain.boundaries", "run.symmetry"},
             "a scene that repeats has no mirror planes, but symmetry = \"quarter\"",
             "symmetry = \"none\" in [run] computes a whole period; boundaries = \"reflecting\" mirrors at every face");
+    for (const char* path : {"domain.size", "domain.lower", "domain.upper"})
+      if (settings_.is_wrong(path)) return;
     if (settings_.has("domain.lower") && settings_.find("domain.lower")->rank == rank::derived)
       return finding(true, {"domain.boundaries"}, "the scene is to repeat, but after which width is not stated",
                      "state size in [domain]: its x and y are the distances from image to image");
-    if (!usable({"domain.lower", "domain.upper"})) return;
     room_between_images();
     images_of_the_plate();
   }

@@ -41,6 +41,11 @@ TEST(PeriodicCase, WidthNotStated_IsAskedForAtTheLineOfTheBoundaries) {
   EXPECT_THAT(error, HasSubstr("after which width is not stated"));
 }
 
+TEST(PeriodicCase, WidthThatIsWrong_IsOneMistake) {
+  EXPECT_THAT(only_error("[domain]\nboundaries = \"periodic\"\nsize = [\"0 mm\", \"1 m\", \"1 m\"]\n", {}),
+              HasSubstr("out of range"));
+}
+
 TEST(PeriodicCase, ImagesTooNear_AreRefusedWithTheRoomTheyNeed) {
   // 1.7e-3 m3 of sand, 60 % of it grains: a third of that is a grain of 87 mm.
   const std::string error = only_error(std::string(sand) + domain, {{"soil.particles", "3"}});
