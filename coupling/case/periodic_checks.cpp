@@ -1,3 +1,5 @@
+#include "coupling/case/periodic_checks.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -5,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "coupling/case/periodic_checks.hpp"
 #include "coupling/case/soil_body.hpp"
 
 namespace standoff {

@@ -76,7 +76,7 @@ void GrainCells::build(std::span<const Vec3> points, double cutoff, const Vec3* 
 }
 
 void GrainCells::choose_grid(std::span<const Vec3> points, double cutoff, const Vec3* periodic_box) {
-  periodic_ = periodic_box != nullptr;
+  periodic_ = periodic_box != nullptr, whole_ = false;
   Vec3 upper;
   bounds(points, lower_, upper);
   if (periodic_) {
@@ -86,6 +86,8 @@ void GrainCells::choose_grid(std::span<const Vec3> points, double cutoff, const 
     const double height = points.empty() ? 0.0 : upper.z - lower_.z;
     for (;; cutoff *= 2.0) {
       cells_ = {along(box_.x), along(box_.y), box_.z > 0.0 ? along(box_.z) : along(height) + 1};
+      whole_ = box_.z == 0.0 && std::min(cells_.x, cells_.y) >= 12;  // a scene; a packed cell has too few
+      if (whole_) cells_ = {cells_.x / 4 * 4, cells_.y / 4 * 4, (cells_.z + 3) / 4 * 4};
       if (1.0 * cells_.x * cells_.y * cells_.z <= most) break;
     }
     per_edge_ = {cells_.x / box_.x, cells_.y / box_.y, box_.z > 0.0 ? cells_.z / box_.z : 1.0 / cutoff};
@@ -158,6 +160,7 @@ void GrainCells::sort(std::span<const Vec3> points) {
 }
 
 int GrainCells::find_brick(CellIndex b) const {
+  if (whole_) b.x = (b.x + grid_.x) % grid_.x, b.y = (b.y + grid_.y) % grid_.y;
   if (b.x < 0 || b.y < 0 || b.z < 0 || b.x >= grid_.x || b.y >= grid_.y || b.z >= grid_.z) return -1;
   return brick_at_[slot(b)];
 }

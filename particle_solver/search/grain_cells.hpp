@@ -36,6 +36,9 @@ class GrainCells {
   /// True if periodic and too small for cells: everyone is everyone's neighbour.
   bool too_small() const { return periodic_ && (cells_.x < 3 || cells_.y < 3 || (cells_.z < 3 && box_.z > 0.0)); }
   bool periodic() const { return periodic_; }
+  /// False in a periodic box with bricks that are cut by its end, or fewer than three of them: a brick is then no
+  /// neighbour that means anything.
+  bool bricks_are_whole() const { return !periodic_ || whole_; }
 
   /// First sorted index of code `c` (0..64) of brick b; the points of a cell are [first(b,c), first(b,c+1)).
   std::uint32_t first(std::size_t brick, unsigned code) const { return first_[brick * 64 + code]; }
@@ -43,9 +46,9 @@ class GrainCells {
   int find(CellIndex cell, unsigned& code) const;
   /// One bit per code: the cells of a brick that hold points.
   std::uint64_t occupied(std::size_t brick) const { return occupied_[brick]; }
-  /// The 27 bricks around one and itself, -1 where there is none; place 13 is the brick. Not for periodic cells.
+  /// The 27 bricks around one and itself, -1 where there is none; place 13 is the brick. For whole bricks.
   std::array<std::int32_t, 27> bricks_around(std::size_t brick) const;
-  /// The same for brick coordinates (not periodic).
+  /// The same for brick coordinates, after wrapping where bricks are whole.
   int find_brick(CellIndex brick) const;
 
   /// Place of a cell in its brick: three bits for the sub-brick, three for the cell in it.
@@ -68,7 +71,7 @@ class GrainCells {
            static_cast<std::size_t>(brick.x);
   }
 
-  bool periodic_ = false;
+  bool periodic_ = false, whole_ = false;
   Vec3 lower_, per_edge_, box_;  // m, 1/m, m
   double edge_ = 0.0;
   CellIndex cells_, grid_;  // number of cells and of bricks along each axis

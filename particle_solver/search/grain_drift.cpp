@@ -33,7 +33,7 @@ double diagonal2(const DriftBox& a, const DriftBox& b) {
 
 void GrainDrift::restart(const GrainCells& cells, double contact, double skin) {
   regions_.clear(), near_regions_.clear(), near_bricks_.clear(), first_region_.clear();
-  periodic_ = cells.periodic(), skin_ = skin;
+  one_region_ = !cells.bricks_are_whole(), skin_ = skin;
   brick_reach_ = 2.0 * cells.edge() - contact, far_reach_ = 4.0 * cells.edge() - contact;
   const std::size_t bricks = cells.bricks().size();
   std::vector<std::uint32_t> region_at(bricks * 8, 0);
@@ -47,7 +47,7 @@ void GrainDrift::restart(const GrainCells& cells, double contact, double skin) {
   }
   first_region_.push_back(static_cast<std::uint32_t>(regions_.size()));
   boxes_.assign(regions_.size(), {});
-  if (periodic_) return;
+  if (one_region_) return;
 
   const auto region_of = [&](CellIndex sub) -> int {
     const int b = cells.find_brick({sub.x >> 1, sub.y >> 1, sub.z >> 1});
@@ -86,7 +86,7 @@ double GrainDrift::used(int threads, double stretch) const {
   }
   if (bricks == 0) return 0.0;
   const double everywhere = std::sqrt(diagonal2(all, all));
-  if (periodic_) return (everywhere + stretch) / skin_;
+  if (one_region_) return (everywhere + stretch) / skin_;
   if (everywhere <= skin_) return everywhere / skin_;  // nothing moved far: no need to look closer
 
   double near = 0.0, mid = 0.0;

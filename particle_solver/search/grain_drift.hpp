@@ -9,7 +9,8 @@
 //   bricks that touch (4x4x4 cells)         not neighbours above: > 2 edges apart         < 2 edges - contact
 //   all other                               > 4 edges apart                               < 4 edges - contact
 //
-// Periodic cells use one region. The result is a maximum of numbers, so it does not depend on the order of evaluation.
+// A packed cell uses one region; in a scene that repeats bricks touch across its faces. The result is a maximum of
+// numbers, so it does not depend on the order of evaluation.
 #include <array>
 #include <cstdint>
 #include <span>
@@ -56,7 +57,7 @@ class GrainDrift {
   Neighbours near_regions_, near_bricks_;
   std::vector<std::uint32_t> first_region_;  // of each brick, and one past the last
   double skin_ = 0.0, brick_reach_ = 0.0, far_reach_ = 0.0;
-  bool periodic_ = false;
+  bool one_region_ = false;
 };
 
 }  // namespace standoff::particles

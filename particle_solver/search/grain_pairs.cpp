@@ -119,12 +119,13 @@ class Lister {
  private:
   void run_cells(const GrainBlock& block) {
     for (std::size_t b = block.first_brick; b < block.last_brick; ++b) {
-      if (!Periodic) bricks_ = cells_.bricks_around(b);
+      const bool whole = !Periodic || cells_.bricks_are_whole();
+      if (whole) bricks_ = cells_.bricks_around(b);
       for (std::uint64_t left = cells_.occupied(b); left != 0; left &= left - 1) {
         const auto code = static_cast<unsigned>(std::countr_zero(left));
         const Range self = cell(b, code);
         around_.start(grains_, self);
-        Periodic ? look_around_wrapped(block, b, code, self) : look_around(block, code, self);
+        whole ? look_around(block, code, self) : look_around_wrapped(block, b, code, self);
         around_.close();
         list(self);
       }
@@ -143,7 +144,7 @@ class Lister {
         around_.add(grains_, block, self, cell(other, static_cast<unsigned>(std::countr_zero(left))));
     }
   }
-  /// The same in a periodic box, where bricks at the end are not full.
+  /// The same in a small periodic box, where bricks at the end are not full.
   void look_around_wrapped(const GrainBlock& block, std::size_t b, unsigned code, Range self) {
     const CellIndex brick = cells_.bricks()[b].at, in = GrainCells::cell_of(code);
     for (int step = 0; step < 27; ++step) {

@@ -3,7 +3,8 @@
 // place of the scene in its period means nothing: moved sideways over a wall that does not give way, it goes through
 // the same history. Rounding differs (2^-53 of 0.3 m against free paths of some mm: 1e-14 of a radius); every hit
 // multiplies it by the free path over the radius, some 10, and in 4 us nobody is hit more than six times: 1e-8 of a
-// velocity.
+// velocity. The hard core is left out: a grain in two deep contacts is hit in the order of the lists, which is one of
+// places.
 // Threads and a stop change no bit.
 #include <gtest/gtest.h>
 
@@ -97,7 +98,8 @@ TEST(PeriodicScene, ThinGas_DoesNotFlyToItsOwnImageInAStep) {
 
 TEST(PeriodicScene, MovedOverItsFaces_GoesThroughTheSameHistory) {
   for (const std::string soil : {"none", "dry"}) {
-    const CaseSpec spec = periodic_case(soil, "[effects]\nsurface_recession = \"off\"\ndetonation_timing = \"off\"\n");
+    const CaseSpec spec = periodic_case(
+        soil, "[effects]\nsurface_recession = \"off\"\ndetonation_timing = \"off\"\nhard_core = \"off\"\n");
     const PeriodicSides sides = periodic_sides(true, spec.domain.lower, spec.domain.upper);
     const Vec3 by{0.11, 0.07, 0.0};
     const auto press = [](Scene& scene) {  // all grains towards the axis, so that they touch wherever they are
