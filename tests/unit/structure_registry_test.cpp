@@ -17,7 +17,8 @@ TEST(StructureRegistry, Names_AreThoseOfTheCaseReader) {
 }
 
 // The step that `standoff plan` expects of a model is the mean of a run, in windows that a whole number of steps fills:
-// five of plate_hex64. It is no longer than what is stable on the mesh of the reference, and at least half of it.
+// five of plate_hex64. It is no longer than what is stable on the mesh of the reference, and at least half of it; the
+// steps of two models do not shrink quite alike as the plate thins, by 5 % at most.
 TEST(StructureRegistry, StepsThatThePlanExpects_AreStable) {
   CaseSpec plate = testing::plate_case(10, true);
   const double cubic = make_structural_model(plate, 1)->stable_step();
@@ -26,7 +27,7 @@ TEST(StructureRegistry, StepsThatThePlanExpects_AreStable) {
     CaseSpec spec = testing::model_case(std::string(model.name));
     spec.plate.elements = spec.plate.is_pipe() ? std::array{20, 5, 1} : plate.plate.elements;
     const double stable = make_structural_model(spec, 1)->stable_step() / cubic;
-    EXPECT_LE(model.relative_step, 1.02 * stable) << model.name;
+    EXPECT_LE(model.relative_step, 1.05 * stable) << model.name;
     EXPECT_GE(model.relative_step, 0.5 * stable) << model.name;
   }
 }
