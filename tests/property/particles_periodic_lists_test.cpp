@@ -57,6 +57,24 @@ TEST_P(PeriodicLists, GrainsThatFlyThroughEachOther_FeelEveryImageInReach) {
   EXPECT_GT(pairs.books().list_builds, 3);
   EXPECT_LT(pairs.books().list_builds, 15) << "some lists must have been used again";
 }
+/// Nobody moves against a neighbour but across the face: what only a watch over the faces can tell.
+TEST(PeriodicHalves, ThatMeetAcrossAFace_FeelEachOther) {
+  const Period period = period_of({1.0, 0.8, 0.0});
+  SandState sand = cloud({0.6, 0.8, 0.2}, 600);
+  for (std::size_t i = 0; i < sand.size(); ++i) {
+    double& x = sand.position[i].x;
+    const bool left = x < 0.3;
+    x += left ? 0.03 : 0.37;  // [0.03, 0.33] and [0.67, 0.97], 0.06 apart across the face
+    sand.velocity[i] = {left ? -1.0 : 1.0, 0.0, 0.0};
+  }
+  SandPairs pairs({{1.0, 0.0, 0.0}, {}, period.length, 0.2, 1});
+  for (int step = 0; step < 20; ++step) {
+    pairs.forces(sand, step == 0 ? 0.0 : 1.0);
+    ASSERT_LT(worst_force(sand, period), 1e-13) << "step " << step;
+    for (std::size_t i = 0; i < sand.size(); ++i) sand.position[i] += sand.velocity[i] * 2e-3;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, PeriodicLists, testing::Values(Vec3{1.0, 0.8, 0.2}, Vec3{0.45, 0.4, 0.4}));
 
 }  // namespace
