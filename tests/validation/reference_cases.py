@@ -73,6 +73,15 @@ def judge_bare(folder):
            f"Knudsen number {air['knudsen_number']:.3f}")
 
 
+def judge_farther(folder):
+    """The six others: no guard fires, the books close, the plate comes to rest."""
+    for medium in ("bare", "dry", "wet"):
+        for stand_off in (200, 250):
+            case = f"{medium}_{stand_off}mm"
+            record = run(f"borvik_2011/{case}", folder / case, "--level", "coarse")
+            judge_books(record, interface=0.06 if medium == "bare" else 0.05)
+
+
 def judge_third_party(folder):
     program = f"exec:{ROOT}/tests/contract/python/membrane.py"
     record = run("borvik_2011/dry_150mm", folder / "membrane", "--level", "coarse", "--structure", program)
@@ -140,7 +149,7 @@ def judge_paraview(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for judge in (judge_mistakes, judge_dry, judge_bare, judge_wet, judge_third_party, judge_repeatability, judge_paraview):
+        for judge in (judge_mistakes, judge_dry, judge_bare, judge_wet, judge_farther, judge_third_party, judge_repeatability, judge_paraview):
             print(judge.__name__)
             judge(folder)
     print(f"{len(failures)} failed")
