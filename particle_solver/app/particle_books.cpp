@@ -22,7 +22,8 @@ void ParticleBooks::observe(double time) {
 }
 
 void ParticleBooks::guard(double time, double window) const {
-  guard_surface(loop_.boundary_totals(), scene_.charge_particles + scene_.sand_particles, window, time);
+  guard_surface(loop_.boundary_totals(), loop_.totals().carried, scene_.charge_particles + scene_.sand_particles,
+                window, time);
 }
 
 double ParticleBooks::front_radius() const {
@@ -123,6 +124,7 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
                 {"awake_volume_m3", full * static_cast<double>(air.cells.awake_count()) * air.cells.volume()}};
   }
   counts["particle_steps"] = totals.particle_steps;
+  counts["carried_by_the_surface"] = totals.carried.particles;
   counts["slipped_below_the_surface"] = loop_.boundary_totals().slipped;
   counts["deferred_hits"] = totals.deferred_hits;
   if (spec_.effect("hard_core")) counts["hard_core_hits"] = totals.hard_core_hits;

@@ -20,15 +20,19 @@ void guard_particle_energy(const CaseSpec& spec, const ParticleEnergy& now, doub
           full * now.sand_kinetic, full * now.sand_elastic, full * now.work_to_structure));
 }
 
-void guard_surface(const BoundaryTotals& totals, long particles, double window, double time) {
-  if (static_cast<double>(totals.slipped) <= largest_passed_share * static_cast<double>(particles)) return;
-  const Vec3& at = totals.last_slip;
-  throw Stop(ExitCode::guard,
-             fmt::format("particles: {} of {} particles have passed through the plate at t = {:.4g} us\n"
-                         "  one of them at ({:.1f}, {:.1f}, {:.1f}) mm, below the lowest point of the plate\n"
-                         "  the plate moves by more than a particle between two exchanges: use a shorter "
-                         "coupling.window than {:.4g} us; \"auto\" chooses one",
-                         totals.slipped, particles, 1e6 * time, 1e3 * at.x, 1e3 * at.y, 1e3 * at.z, 1e6 * window));
+void guard_surface(const BoundaryTotals& totals, const CarriedGas& carried, long particles, double window,
+                   double time) {
+  const long behind = totals.slipped + carried.particles;
+  if (static_cast<double>(behind) <= largest_passed_share * static_cast<double>(particles)) return;
+  const Vec3& at = totals.slipped > 0 ? totals.last_slip : carried.last;
+  throw Stop(
+      ExitCode::guard,
+      fmt::format("particles: {} of {} particles have passed through the plate at t = {:.4g} us; {} of them were "
+                  "set back on it\n"
+                  "  one of them at ({:.1f}, {:.1f}, {:.1f}) mm\n"
+                  "  the plate moves by more than a particle between two exchanges: use a shorter "
+                  "coupling.window than {:.4g} us; \"auto\" chooses one",
+                  behind, particles, 1e6 * time, carried.particles, 1e3 * at.x, 1e3 * at.y, 1e3 * at.z, 1e6 * window));
 }
 
 }  // namespace standoff::particles

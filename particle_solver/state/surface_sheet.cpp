@@ -44,6 +44,10 @@ void SurfaceSheet::begin_window(const SurfaceMotion& motion, bool keep_pending) 
                                                " velocities, the surface mesh " + std::to_string(plate_nodes_) +
                                                " nodes; the structure process broke the protocol");
   if (!recedes_) return;
+  double jump2 = 0.0;
+  for (std::size_t n = 0; n < plate_nodes_; ++n)
+    jump2 = std::max(jump2, squared_norm(motion.position[n] - position_[n]));
+  jump_ = std::sqrt(jump2);
   std::copy(motion.position.begin(), motion.position.end(), position_.begin());
   std::copy(motion.velocity.begin(), motion.velocity.end(), velocity_.begin());
   for (std::size_t n = 0; keep_pending && n < plate_nodes_; ++n) velocity_[n] += scaled(inverse_mass_[n], pending_[n]);

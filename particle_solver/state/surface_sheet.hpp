@@ -78,6 +78,9 @@ class SurfaceSheet {
   /// Velocity of that point now, after the hits since `where` was found.
   Vec3 velocity_at(const SheetPoint& where) const;
 
+  /// Farthest that the start of this window has set a node, m.
+  double jump() const { return jump_; }
+
   /// End of a sub-step: nodes move on by h.
   void drift(double h);
 
@@ -138,6 +141,7 @@ class SurfaceSheet {
   Vec3 total_impulse_, surround_impulse_;
   double total_work_ = 0.0;
   // Bounds over all nodes: motion since the bins were built, speed, height and rate of height.
+  double jump_ = 0.0;  // of this window: every window sets it
   double moved_ = 0.0, speed_ = 0.0, top_ = 0.0, rise_ = 0.0, bottom_ = 0.0, sink_ = 0.0;
 };
 

@@ -5,7 +5,8 @@
 //   sand_integrate (half kick) -> stages of effects/ -> surface_contact -> boundaries -> n x [ detonate -> gas_collide
 //   -> gas_drift ]
 //                  -> wrap, if the scene repeats -> sand_pairs -> sand_integrate (half kick) -> hard_core
-// Air, where there is some, moves at the beginning of a window: air_collide -> air_drift -> air_boundaries.
+// A window begins with surface_carry, where there is gas or air; air moves then: air_collide -> air_drift ->
+// air_boundaries.
 //
 // A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
 // in the list: no test, no array, no timer row. Stage name = file name = timer name = row of the report.
@@ -26,6 +27,7 @@
 #include "particle_solver/step/drop_outgoing.hpp"
 #include "particle_solver/step/gas_collide.hpp"
 #include "particle_solver/step/hard_core.hpp"
+#include "particle_solver/step/surface_carry.hpp"
 #include "particle_solver/step/surface_contact.hpp"
 
 namespace standoff::particles {
@@ -41,13 +43,14 @@ struct LoopTotals {
   double escaped_contact = 0.0;                  // J since the start, in such springs of grains that were taken out
   double max_penetration_over_radius = 0.0;
   long deferred_hits = 0, hard_core_hits = 0;
+  CarriedGas carried;
   double step = 0.0;       // s, the last
   std::string limited_by;  // what limited it
   template <class Archive>
   void archive(Archive& a) {
     a(steps, sub_steps, particle_steps, impulse_gas, impulse_sand, impulse_air, incoming, contact_loss, contact_elastic,
       escaped_contact);
-    a(max_penetration_over_radius, deferred_hits, hard_core_hits, step, limited_by);
+    a(max_penetration_over_radius, deferred_hits, hard_core_hits, carried.particles, carried.last, step, limited_by);
   }
 };
 
