@@ -271,7 +271,10 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
     for (const Effect& effect : effect_rules())
       if (decision.name == effect.name) p.effects.push_back(price_of(effect, decision, spec, work));
   for (const EffectPrice& price : p.effects)
-    if (price.name == "relaxation") p.structure_bytes += price.bytes;
+    if (price.name == "relaxation")
+      p.structure_bytes += price.bytes;
+    else if (price.name == "grain_rotation")
+      p.particle_bytes += price.bytes;
   return p;
 }
 

@@ -62,6 +62,7 @@ NamedValues ParticleBooks::sample(double time) {
                            {"sand_front_radius_m", front_radius()}});
     if (spec_.effect("friction")) row.emplace_back("friction_loss_J", full * energy.friction_loss);
     if (spec_.effect("damping")) row.emplace_back("damping_loss_J", full * energy.damping_loss);
+    if (spec_.effect("grain_rotation")) row.emplace_back("sand_rotation_J", full * energy.sand_rotation);
     for (const auto& effect : loop_.effects())
       row.emplace_back(std::string(effect->name()) + "_loss_J", full * effect->books.loss);
   }
@@ -141,6 +142,7 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
   }
   hash.add(std::span<const Vec3>(scene_.sand.position));
   hash.add(std::span<const Vec3>(scene_.sand.velocity));
+  hash.add(std::span<const Vec3>(scene_.sand.spin));
   j["provenance"]["state_hash"] = hash.hex();
   return j;
 }

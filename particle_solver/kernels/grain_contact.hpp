@@ -1,7 +1,7 @@
 #pragma once
 // Contact of two grains, or of a grain with its mirror image: a linear normal spring with a dashpot, and a tangential
 // spring of the same stiffness limited by Coulomb friction [Borvik 2011, sec. 3.3]. Grains translate only, as in the
-// paper.
+// paper; for those that turn, `slip` is that of their surfaces (grain_rotation.hpp).
 //
 //   d = x_i - x_j, n = d/|d|, overlap = reach - |d|            reach = r_i + r_j
 //   f_n = max(0, k overlap + c closing_speed)                  never attractive, also at the end of a damped contact

@@ -10,6 +10,7 @@ namespace standoff::particles {
 struct ParticleEnergy {
   double air_kinetic = 0.0, air_internal = 0.0;
   double gas_kinetic = 0.0, gas_internal = 0.0, sand_kinetic = 0.0, sand_elastic = 0.0;
+  double sand_rotation = 0.0;
   double friction_loss = 0.0, damping_loss = 0.0, contact_loss = 0.0;  // since the start; contact: grains on the plate
   double effect_loss = 0.0;                                            // taken by stages of effects, effects/
   double escaped_gas = 0.0, escaped_sand = 0.0, escaped_air = 0.0;     // carried out of the domain, springs included
@@ -17,8 +18,8 @@ struct ParticleEnergy {
   double inflow = 0.0;  // brought in by ambient air, work of its pressure on the rear of the plate included
   double escaped() const { return escaped_gas + escaped_sand + escaped_air; }
   double total() const {
-    return air_kinetic + air_internal + gas_kinetic + gas_internal + sand_kinetic + sand_elastic + friction_loss +
-           damping_loss + contact_loss + effect_loss + escaped() + work_to_structure - inflow;
+    return air_kinetic + air_internal + gas_kinetic + gas_internal + sand_kinetic + sand_elastic + sand_rotation +
+           friction_loss + damping_loss + contact_loss + effect_loss + escaped() + work_to_structure - inflow;
   }
 };
 

@@ -9,6 +9,7 @@
 #include "particle_solver/packing/sand_body.hpp"
 #include "particle_solver/scene/ambient_air.hpp"
 #include "particle_solver/step/detonate.hpp"
+#include "particle_solver/step/grain_rotation.hpp"
 
 namespace standoff::particles {
 namespace {
@@ -50,6 +51,8 @@ Scene build_scene(const CaseSpec& spec, const SurfaceMesh& mesh, int threads) {
     law.mirrors.on = quarter;
     if (domain.repeats()) law.periodic_box = domain.period();
     law.threads = threads;
+    law.turning = spec.effect("grain_rotation");
+    if (law.turning) let_grains_turn(scene.sand);
     scene.sand_law = law;
   }
   scene.charge_particles = static_cast<long>(scene.gas.size());

@@ -66,13 +66,15 @@ struct GasState {
   }
 };
 
-/// Grains: rigid spheres without rotation. Velocity Verlet: half kick, drift (with gas hits), forces, half kick.
+/// Grains: rigid spheres, which turn only where the effect grain_rotation is on. Velocity Verlet: half kick, drift
+/// (with gas hits), forces, half kick.
 struct SandState {
   double radius = 0.0, mass = 0.0;       // of every grain, or the mean when radii differ
   std::vector<double> grain_radius;      // m; empty when all are equal
   std::vector<double> grain_mass;        // kg; empty when all are equal
   std::vector<Vec3> position, velocity;  // m, m/s
   std::vector<Vec3> force;               // N, contact forces at `position`
+  std::vector<Vec3> spin, torque;        // rad/s, N m of those forces about the centre; empty where grains do not turn
   std::vector<double> plate_rebound;     // as in GasState
   std::vector<std::uint32_t> id;
   std::size_t size() const { return position.size(); }
@@ -80,7 +82,7 @@ struct SandState {
   double mass_of(std::size_t i) const { return grain_mass.empty() ? mass : grain_mass[i]; }
   template <class Archive>
   void archive(Archive& a) {
-    a(radius, mass, grain_radius, grain_mass, position, velocity, force, plate_rebound, id);
+    a(radius, mass, grain_radius, grain_mass, position, velocity, force, plate_rebound, id, spin, torque);
   }
 };
 

@@ -149,20 +149,35 @@ void SurfaceSheet::give(std::int32_t face, const std::array<double, 4>& weight, 
   total_work_ += work;
 }
 
-Impact SurfaceSheet::collide(const SheetPoint& where, double mass, double restitution, double friction, double t,
-                             Vec3& velocity) {
+template <class Sphere>
+Impact SurfaceSheet::meet(const SheetPoint& where, Sphere& sphere, double restitution, double friction, double t) {
   const std::array<double, 4> weight = bilinear_weights(where.xi, where.eta);
   const Answer wall = answer(where.face, weight);
-  const double inverse = 1.0 / mass;
-  const Vec3 before = velocity - wall.velocity;
-  const Vec3 impulse = -surface_impulse({restitution, friction}, before, where.normal, inverse, wall.inverse_mass);
+  const Vec3 before = sphere.surface_velocity(where.normal) - wall.velocity;
+  const Vec3 impulse = -surface_impulse({restitution, friction}, before, where.normal, sphere.inverse_mass(),
+                                        sphere.across(), wall.inverse_mass);
   if (impulse == Vec3{}) return {};
-  const Vec3 wall_change = scaled(wall.inverse_mass, impulse), change = impulse * -inverse;
+  const Vec3 wall_change = scaled(wall.inverse_mass, impulse), change = sphere.change(-impulse, where.normal);
   const Impact impact{impulse, dot(impulse, wall.velocity + wall_change * 0.5),
                       dot(impulse, before + (change - wall_change) * 0.5)};
-  velocity += change;
+  sphere.push(-impulse, 1.0, where.normal);
   give(where.face, weight, impulse, t, impact.work);
   return impact;
+}
+
+Impact SurfaceSheet::collide(const SheetPoint& where, double mass, double restitution, double friction, double t,
+                             Vec3& velocity) {
+  return collide(where, SmoothSphere{mass, velocity}, restitution, friction, t);
+}
+
+Impact SurfaceSheet::collide(const SheetPoint& where, SmoothSphere sphere, double restitution, double friction,
+                             double t) {
+  return meet(where, sphere, restitution, friction, t);
+}
+
+Impact SurfaceSheet::collide(const SheetPoint& where, TurningSphere sphere, double restitution, double friction,
+                             double t) {
+  return meet(where, sphere, restitution, friction, t);
 }
 
 Impact SurfaceSheet::push(const SheetPoint& where, const Vec3& impulse, double t) {

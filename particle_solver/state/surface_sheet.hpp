@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "coupling/contract/surface.hpp"
+#include "particle_solver/kernels/turning_sphere.hpp"
 #include "particle_solver/search/surface_search.hpp"
 
 namespace standoff::particles {
@@ -72,6 +73,9 @@ class SurfaceSheet {
   /// velocity and the local node velocities, collects the nodal impulses. Momentum exact; energy exact for e = 1, mu =
   /// 0.
   Impact collide(const SheetPoint& where, double mass, double restitution, double friction, double t, Vec3& velocity);
+  Impact collide(const SheetPoint& where, SmoothSphere sphere, double restitution, double friction, double t);
+  /// The same of a sphere that turns: friction acts on its surface.
+  Impact collide(const SheetPoint& where, TurningSphere sphere, double restitution, double friction, double t);
   /// A force law's impulse (force times step) on the sheet at a point; work is impulse times mean wall velocity.
   Impact push(const SheetPoint& where, const Vec3& impulse, double t);
 
@@ -121,6 +125,8 @@ class SurfaceSheet {
     Vec3 velocity, inverse_mass;  // m/s; 1/kg by axis
   };
   Answer answer(std::int32_t face, const std::array<double, 4>& weight) const;
+  template <class Sphere>
+  Impact meet(const SheetPoint& where, Sphere& sphere, double restitution, double friction, double t);
   SheetMotion motion() const { return {position_, velocity_}; }
   double slack(double t) const;
   SheetPoint seen(const SheetFoot& foot) const;

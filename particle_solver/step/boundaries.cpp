@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "particle_solver/step/grain_rotation.hpp"
+
 namespace standoff::particles {
 namespace {
 
@@ -136,14 +138,16 @@ void Boundaries::take_out(SandState& sand, const std::vector<std::uint32_t>& out
   for (const std::uint32_t i : out) {
     const double mass = sand.mass_of(i);
     books.escaped_momentum += sand.velocity[i] * mass;
-    const double energy = 0.5 * mass * squared_norm(sand.velocity[i]);
+    double energy = 0.5 * mass * squared_norm(sand.velocity[i]);
+    if (!sand.spin.empty()) energy += rotation_energy(sand, i);
     books.escaped_energy += energy, totals_.sand_energy += energy;
     totals_.sand_mass += mass;
     totals_.sand_rebound += rebound(sand.plate_rebound, i);
   }
   totals_.sand += static_cast<long>(out.size());
   drop(sand.grain_radius, out), drop(sand.grain_mass, out), drop(sand.position, out), drop(sand.velocity, out);
-  drop(sand.force, out), drop(sand.plate_rebound, out), drop(sand.id, out);
+  drop(sand.force, out), drop(sand.spin, out), drop(sand.torque, out), drop(sand.plate_rebound, out),
+      drop(sand.id, out);
 }
 
 const BoundaryChanges& Boundaries::run(GasState* gas, SandState* sand, const SurfaceSheet* sheet,

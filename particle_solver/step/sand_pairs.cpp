@@ -49,6 +49,9 @@ struct SandPairs::Impl {
   void adapt_skin();
   void make_lists(const SandState& sand, std::span<const Vec3> list_position, std::span<const Vec3> moved);
   PassInput pass_input(double dt) const;
+  bool turning() const { return options.turning && options.law.friction > 0.0; }
+  void collect_turns(const SandState& sand, double dt);
+  void hand_torques_over(const GrainBlock& block, const std::vector<GrainRecord>& torque, SandState& sand) const;
   void run_blocks(SandState& sand, double dt);
   void deep_in_block(const GrainBlock& block, double share, std::vector<DeepContact>& found) const;
   void close_books(const std::vector<PassSums>& sums, double dt, std::size_t count);
@@ -61,6 +64,7 @@ struct SandPairs::Impl {
   std::vector<GrainBlock> blocks;
   std::vector<std::uint32_t> id;           // sorted order
   std::vector<GrainRecord> grains, moves;  // sorted order
+  std::vector<GrainRecord> turns;          // sorted order, m, radius times rotation of the last call; if grains turn
   std::vector<Vec3> list_position;         // sorted order, where the list was made
   std::vector<PassScratch> scratch;        // one a thread
   std::vector<double> block_overlap;       // m, largest in each block at the last call
@@ -155,6 +159,8 @@ void SandPairs::Impl::measure(const SandState& sand) {
   const std::size_t count = sand.size();
   if (sand.velocity.size() != count || sand.id.size() != count || sand.force.size() != count)
     throw Stop(ExitCode::guard, "sand: position, velocity, force and id must have one entry per grain");
+  if (options.turning && (sand.spin.size() != count || sand.torque.size() != count))
+    throw Stop(ExitCode::guard, "sand: grains that turn need a spin and a torque each");
   radii = !sand.grain_radius.empty() || !sand.grain_mass.empty();
   mean_radius = largest_radius = smallest_radius = sand.radius, lightest = sand.mass;
   for (std::size_t i = 0; radii && i < count; ++i) {
@@ -233,6 +239,7 @@ PassInput SandPairs::Impl::pass_input(double dt) const {
   PassInput in;
   in.law = options.law;
   in.grains = grains.data(), in.moves = moves.data();
+  in.turns = turns.data();
   in.far_away = static_cast<std::uint32_t>(grains.size() - 1);
   in.reach = 2.0 * mean_radius;
   in.dt = dt;
@@ -244,10 +251,23 @@ PassInput SandPairs::Impl::pass_input(double dt) const {
   return in;
 }
 
+/// Spins stand still between two calls but for what surface_contact did before the drift.
+void SandPairs::Impl::collect_turns(const SandState& sand, double dt) {
+  turns.resize(id.size() + 1);
+#pragma omp parallel for schedule(static) num_threads(options.threads)
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    const std::uint32_t s = cells.order()[i];
+    const Vec3 turn = sand.spin[s] * (sand.radius_of(s) * dt);
+    turns[i] = {turn.x, turn.y, turn.z, 0.0};
+  }
+  turns.back() = {};
+}
+
 void SandPairs::Impl::run_blocks(SandState& sand, double dt) {
+  if (turning()) collect_turns(sand, dt);
   const PassInput in = pass_input(dt);
-  const RunBlock run =
-      choose_pass(options.law.friction > 0.0, options.law.damping > 0.0, radii, options.periodic_box.has_value());
+  const RunBlock run = choose_pass(options.law.friction > 0.0, options.law.damping > 0.0, radii,
+                                   options.periodic_box.has_value(), turning());
   std::vector<PassSums> sums(blocks.size());
   scratch.resize(static_cast<std::size_t>(options.threads));
   const auto count = static_cast<int>(blocks.size());
@@ -256,6 +276,7 @@ void SandPairs::Impl::run_blocks(SandState& sand, double dt) {
     GrainBlock& block = blocks[static_cast<std::size_t>(b)];
     PassScratch& mine = scratch[static_cast<std::size_t>(omp_get_thread_num())];
     mine.force.assign(block.end - block.begin, {});
+    if (turning()) mine.torque.assign(block.end - block.begin, {});
     PassSums& sum = sums[static_cast<std::size_t>(b)];
     sum = run(in, block, mine);
     if (options.mirrors.on) sum.add(run_mirrors(in, block, mine), 1.0);
@@ -264,10 +285,20 @@ void SandPairs::Impl::run_blocks(SandState& sand, double dt) {
       sand.force[cells.order()[i]] = {f.x, f.y, f.z};
       sum.touching += f.w, sum.most_touching = std::max(sum.most_touching, f.w);
     }
+    if (turning()) hand_torques_over(block, mine.torque, sand);
   }
   block_overlap.resize(sums.size());
   std::transform(sums.begin(), sums.end(), block_overlap.begin(), [](const PassSums& s) { return s.largest_overlap; });
   close_books(sums, dt, sand.size());
+}
+
+void SandPairs::Impl::hand_torques_over(const GrainBlock& block, const std::vector<GrainRecord>& torque,
+                                        SandState& sand) const {
+  for (std::size_t i = block.begin; i < block.end; ++i) {
+    const std::uint32_t s = cells.order()[i];
+    const GrainRecord& t = torque[i - block.begin];
+    sand.torque[s] = Vec3{t.x, t.y, t.z} * sand.radius_of(s);
+  }
 }
 
 /// A rim pair is listed by two blocks: the one that holds the smaller index reports it.

@@ -36,6 +36,7 @@ struct SandPairsOptions {
   std::optional<Vec3> periodic_box;  // m, lengths of a unit cell, or of a scene that repeats (z: 0)
   double skin = 0.0;                 // in mean diameters; 0: adapted to how often lists are made
   int threads = 1;
+  bool turning = false;  // SandState::spin slides surfaces, SandState::torque is set; nothing without friction
 };
 
 /// Energies [J] and more, of the simulated part.

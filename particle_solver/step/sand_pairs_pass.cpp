@@ -16,8 +16,8 @@ RunBlock choose_rest(bool next, Rest... rest) {
 
 }  // namespace
 
-RunBlock choose_pass(bool friction, bool damping, bool radii, bool periodic) {
-  return choose_rest<>(friction, damping, radii, periodic);
+RunBlock choose_pass(bool friction, bool damping, bool radii, bool periodic, bool turning) {
+  return choose_rest<>(friction, damping, radii, periodic, turning);
 }
 
 PassSums run_mirrors(const PassInput& in, const GrainBlock& block, PassScratch& scratch) {

@@ -1,12 +1,13 @@
 #pragma once
 // The inner loop of sand_pairs: the law of grain_contact.hpp over the pair lists of one block, four pairs at a time.
-// What a scene does not have (friction, damping, different radii, periodic box) is compiled out.
+// What a scene does not have (friction, damping, different radii, periodic box, grains that turn) is compiled out.
 #include <array>
 #include <cstring>
 #include <type_traits>
 #include <vector>
 
 #include "particle_solver/kernels/grain_contact.hpp"
+#include "particle_solver/kernels/grain_rotation.hpp"
 #include "particle_solver/search/grain_pairs.hpp"
 
 namespace standoff::particles {
@@ -16,6 +17,7 @@ struct PassInput {
   GrainLaw law;
   const GrainRecord* grains = nullptr;  // x, y, z, radius; sorted, one more far away
   const GrainRecord* moves = nullptr;   // displacement since the last call and 1/mass
+  const GrainRecord* turns = nullptr;   // grains that turn: radius times rotation since the last call, m
   std::uint32_t far_away = 0;           // the one that is far away
   double reach = 0.0;                   // m, equal grains: the diameter
   double dashpot_per_step = 0.0;        // N/m, equal grains
@@ -42,6 +44,7 @@ struct PassSums {
 /// Memory that a thread keeps from block to block.
 struct PassScratch {
   std::vector<GrainRecord> force;   // N on the block's grains; w counts contacts
+  std::vector<GrainRecord> torque;  // N, torque over radius on the block's grains, if they turn
   std::vector<std::uint32_t> hits;  // slots of a list that need the law, with the two bits below
   std::vector<double> springs;
 };
@@ -137,8 +140,9 @@ std::size_t select_hits(const PassInput& in, PairList<Pair>& list, std::vector<s
   return found;
 }
 
-/// Adds forces to i and, inside a block, their opposite to j. The fourth number counts contacts for both.
-template <bool Rim>
+/// Adds forces to i and, inside a block, their opposite to j; torques are the same for both. The fourth number counts
+/// contacts for both.
+template <bool Rim, bool Opposite>
 [[gnu::always_inline]] inline void scatter(const Triple<Lanes>& force, Lanes touching, const FourPairs& pairs,
                                            std::size_t used, std::uint32_t begin, GrainRecord* block_force) {
   Lanes a = force.x, b = force.y, c = force.z, d = touching;
@@ -148,7 +152,7 @@ template <bool Rim>
     store(i, load(i) + f);
     if constexpr (!Rim) {
       GrainRecord& j = block_force[pair.j - begin];
-      store(j, load(j) - flip_fourth(f));
+      store(j, Opposite ? load(j) - flip_fourth(f) : load(j) + f);
     }
   };
   one(a, pairs[0]);
@@ -221,9 +225,20 @@ inline void pair_motion(const PassInput& in, const GrainPair* pairs, const Tripl
     pair.dashpot_per_step = Radii ? dashpot_over_step(in.law, inverse_masses, in.dt) : all_lanes(in.dashpot_per_step);
 }
 
-template <bool Friction, bool Damping, bool Radii, bool Periodic, class Pair>
+/// Surfaces slide by spins too.
+inline void pair_turns(const PassInput& in, const GrainPair* pairs, const Lanes& per_reach,
+                       GrainPairInput<Lanes>& pair) {
+  const auto sum = [&](int lane) { return load(in.turns[pairs[lane].i]) + load(in.turns[pairs[lane].j]); };
+  Triple<Lanes> turns{sum(0), sum(1), sum(2)};
+  Lanes unused = sum(3);
+  transpose(turns.x, turns.y, turns.z, unused);
+  pair.slip = surface_slip(pair.slip, turns, pair.separation, per_reach);
+}
+
+template <bool Friction, bool Damping, bool Radii, bool Periodic, bool Turning, class Pair>
 PassSums run_list(PassInput in, PairList<Pair>& list, std::uint32_t begin, PassScratch& scratch) {
   constexpr bool Rim = std::is_same_v<Pair, GrainPair>;
+  if constexpr (!Rim && Turning) in.turns += begin;
   if constexpr (!Rim) in.grains += begin, in.moves += begin, in.far_away -= begin, begin = 0;
   const Lanes zero{};
   Lanes elastic{}, friction_loss{}, damping_loss{}, largest{}, virial_x{}, virial_y{}, virial_z{};
@@ -239,9 +254,11 @@ PassSums run_list(PassInput in, PairList<Pair>& list, std::uint32_t begin, PassS
     GrainPairInput<Lanes> pair;
     Triple<Lanes> image{};
     pair_distance<Radii, Periodic>(in, pairs.data(), pair, image);
+    const Lanes per_reach = Turning ? 1.0 / pair.reach : zero;
     if constexpr (Periodic)
       for (std::size_t lane = hits - h; lane < 4; ++lane) pair.reach[lane] = 0.0;  // the filling
     if constexpr (Friction || Damping) pair_motion<Damping, Radii, Periodic>(in, pairs.data(), image, pair);
+    if constexpr (Turning) pair_turns(in, pairs.data(), per_reach, pair);
     if constexpr (Friction) pair.spring = springs.read(slots);
     const GrainContact<Lanes> contact = grain_contact<Friction, Damping>(in.law, pair);
     const auto touching = contact.overlap > zero;
@@ -254,7 +271,10 @@ PassSums run_list(PassInput in, PairList<Pair>& list, std::uint32_t begin, PassS
     }
     elastic += contact.elastic;
     largest = larger(largest, contact.overlap);
-    scatter<Rim>(contact.force, choose(touching, zero + 1.0, zero), pairs, hits - h, begin, scratch.force.data());
+    scatter<Rim, true>(contact.force, choose(touching, zero + 1.0, zero), pairs, hits - h, begin, scratch.force.data());
+    if constexpr (Turning)
+      scatter<Rim, false>(torque_over_radius(contact.force, pair.separation, per_reach), zero, pairs, hits - h, begin,
+                          scratch.torque.data());
   }
   PassSums sums{lane_sum(elastic), lane_sum(friction_loss), lane_sum(damping_loss), lane_largest(largest), {}, {}};
   if constexpr (Periodic) sums.virial = {lane_sum(virial_x), lane_sum(virial_y), lane_sum(virial_z)};
@@ -262,17 +282,18 @@ PassSums run_list(PassInput in, PairList<Pair>& list, std::uint32_t begin, PassS
 }
 
 /// Both lists of a block. A rim pair is seen by two blocks, half of its energies each.
-template <bool Friction, bool Damping, bool Radii, bool Periodic>
+template <bool Friction, bool Damping, bool Radii, bool Periodic, bool MayTurn>
 PassSums run_block(const PassInput& in, GrainBlock& block, PassScratch& scratch) {
-  PassSums sums = run_list<Friction, Damping, Radii, Periodic>(in, block.inner, block.begin, scratch);
-  sums.add(run_list<Friction, Damping, Radii, Periodic>(in, block.rim, block.begin, scratch), 0.5);
+  constexpr bool Turning = MayTurn && Friction;  // normal forces turn nothing
+  PassSums sums = run_list<Friction, Damping, Radii, Periodic, Turning>(in, block.inner, block.begin, scratch);
+  sums.add(run_list<Friction, Damping, Radii, Periodic, Turning>(in, block.rim, block.begin, scratch), 0.5);
   return sums;
 }
 
 using RunBlock = PassSums (*)(const PassInput&, GrainBlock&, PassScratch&);
 
 /// The loop for a scene; chosen once.
-RunBlock choose_pass(bool friction, bool damping, bool radii, bool periodic);
+RunBlock choose_pass(bool friction, bool damping, bool radii, bool periodic, bool turning);
 
 /// Contacts of a block's grains with their images in the mirror planes x = 0 and y = 0.
 PassSums run_mirrors(const PassInput& in, const GrainBlock& block, PassScratch& scratch);

@@ -14,11 +14,26 @@ SurfaceContactOptions surface_contact_options(const CaseSpec& spec, double stiff
   options.impact = {spec.contact.surface_restitution, spec.contact.surface_friction};
   options.soil = {stiffness, spec.soil.damping, spec.contact.surface_friction};
   options.threads = threads;
+  options.turning = spec.effect("grain_rotation") && spec.contact.surface_friction > 0.0;
   return options;
 }
 
 SurfaceContact::SurfaceContact(const SurfaceContactOptions& options)
-    : options_(options), found_(static_cast<std::size_t>(std::max(1, options.threads))) {}
+    : options_(options), found_(static_cast<std::size_t>(std::max(1, options.threads))) {
+  if (options.spring)
+    resolve_ = options.turning ? &SurfaceContact::resolve<true, true> : &SurfaceContact::resolve<true, false>;
+  else
+    resolve_ = options.turning ? &SurfaceContact::resolve<false, true> : &SurfaceContact::resolve<false, false>;
+}
+
+/// A grain as the sheet meets it.
+template <bool Turning>
+auto sphere_of(SandState& sand, std::size_t i, double distance) {
+  if constexpr (Turning)
+    return TurningSphere(sand.mass_of(i), sand.radius_of(i), distance, sand.velocity[i], sand.spin[i]);
+  else
+    return SmoothSphere{sand.mass_of(i), sand.velocity[i]};
+}
 
 template <bool EqualRadii>
 void SurfaceContact::find(const SandState& sand, const SurfaceSheet& sheet, double t) {
@@ -39,12 +54,13 @@ void SurfaceContact::find(const SandState& sand, const SurfaceSheet& sheet, doub
   }
 }
 
+template <bool Turning>
 void SurfaceContact::impact(const Touch& touch, SandState& sand, SurfaceSheet& sheet, double t,
                             SurfaceContactCounts& counts) const {
   const std::size_t i = touch.grain;
   const double mass = sand.mass_of(i), incoming = -mass * sand.velocity[i].z;
-  const Impact hit =
-      sheet.collide(touch.where, mass, options_.impact.restitution, options_.impact.friction, t, sand.velocity[i]);
+  const Impact hit = sheet.collide(touch.where, sphere_of<Turning>(sand, i, touch.where.gap),
+                                   options_.impact.restitution, options_.impact.friction, t);
   if (hit.impulse == Vec3{}) return;
   ++counts.hits;
   counts.loss += hit.loss;
@@ -54,29 +70,32 @@ void SurfaceContact::impact(const Touch& touch, SandState& sand, SurfaceSheet& s
   sand.plate_rebound[i] = mass * sand.velocity[i].z;
 }
 
+template <bool Turning>
 void SurfaceContact::spring(Touch& touch, SandState& sand, SurfaceSheet& sheet, double h, double t,
                             SurfaceContactCounts& counts) const {
   const std::size_t i = touch.grain;
   const double mass = sand.mass_of(i), incoming = -mass * sand.velocity[i].z;
   const double overlap = sand.radius_of(i) - touch.where.gap;
-  const Vec3 wall = sheet.velocity_at(touch.where), slip = sand.velocity[i] - wall;
-  const Vec3 force = surface_spring_force(options_.soil, overlap, slip, touch.where.normal, mass, h);
+  const Vec3 normal = touch.where.normal, wall = sheet.velocity_at(touch.where);
+  auto sphere = sphere_of<Turning>(sand, i, touch.where.gap);
+  const Vec3 slip = sphere.surface_velocity(normal) - wall;
+  const Vec3 force = surface_spring_force(options_.soil, overlap, slip, normal, mass, sphere.mass_across(), h);
   const double elastic_force = options_.soil.stiffness * overlap;
   touch.stored = 0.5 * elastic_force * overlap;
   counts.elastic_energy += touch.stored;
   if (force == Vec3{}) return;
   const Impact hit = sheet.push(touch.where, force * -h, t);
-  sand.velocity[i] += force * (h / mass);
-  const Vec3 mean_slip = (slip + sand.velocity[i] - sheet.velocity_at(touch.where)) * 0.5;
+  sphere.push(force, h, normal);
+  const Vec3 mean_slip = (slip + sphere.surface_velocity(normal) - sheet.velocity_at(touch.where)) * 0.5;
   ++counts.hits;
-  counts.loss -= dot(force - touch.where.normal * elastic_force, mean_slip) * h;  // dashpot and friction
+  counts.loss -= dot(force - normal * elastic_force, mean_slip) * h;  // dashpot and friction
   if (touch.where.rigid) return;
   counts.plate_impulse -= hit.impulse.z, counts.plate_work += hit.work;
   if (std::isnan(sand.plate_rebound[i])) counts.plate_incoming += incoming;
   sand.plate_rebound[i] = mass * sand.velocity[i].z;
 }
 
-template <bool Spring>
+template <bool Spring, bool Turning>
 SurfaceContactCounts SurfaceContact::resolve(SandState& sand, SurfaceSheet& sheet, double h, double t) {
   SurfaceContactCounts counts;
   for (std::vector<Touch>& part : found_)
@@ -84,9 +103,9 @@ SurfaceContactCounts SurfaceContact::resolve(SandState& sand, SurfaceSheet& shee
       const double radius = sand.radius_of(touch.grain);
       counts.penetration_over_radius = std::max(counts.penetration_over_radius, 1.0 - touch.where.gap / radius);
       if constexpr (Spring)
-        spring(touch, sand, sheet, h, t, counts);
+        spring<Turning>(touch, sand, sheet, h, t, counts);
       else
-        impact(touch, sand, sheet, t, counts);
+        impact<Turning>(touch, sand, sheet, t, counts);
     }
   return counts;
 }
@@ -123,7 +142,7 @@ SurfaceContactCounts SurfaceContact::run(SandState& sand, SurfaceSheet& sheet, d
   const bool any = std::any_of(found_.begin(), found_.end(), [](const auto& part) { return !part.empty(); });
   if (any && sand.plate_rebound.size() != sand.size())
     sand.plate_rebound.resize(sand.size(), std::numeric_limits<double>::quiet_NaN());
-  return options_.spring ? resolve<true>(sand, sheet, h, sheet_time) : resolve<false>(sand, sheet, h, sheet_time);
+  return (this->*resolve_)(sand, sheet, h, sheet_time);
 }
 
 }  // namespace standoff::particles

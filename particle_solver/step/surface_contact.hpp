@@ -4,10 +4,10 @@
 // Two laws, chosen once. Impulse: a grain that touches (gap < radius) and approaches gets an impact with the case's
 // restitution and friction; unilateral and, with restitution 0, inelastic, so that a loaded layer does not creep into
 // the plate: what the other grains pushed it by in the half kick is taken out again before it moves. Spring: the soil's
-// own spring and dashpot, pushed as force times step. A grain that will touch during the coming drift is met in the
-// next step; with |v| h < 0.1 radius that is 0.1 radius late. Touching grains are found in parallel and resolved one
-// after the other in the order of the arrays, each against the wall as the ones before it left it: the same bits for
-// any number of threads.
+// own spring and dashpot, pushed as force times step. Friction turns grains that can turn. A grain that will touch
+// during the coming drift is met in the next step; with |v| h < 0.1 radius that is 0.1 radius late. Touching grains are
+// found in parallel and resolved one after the other in the order of the arrays, each against the wall as the ones
+// before it left it: the same bits for any number of threads.
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +35,7 @@ struct SurfaceContactOptions {
   SurfaceImpactLaw impact;  // used without spring
   SurfaceSpringLaw soil;    // used with spring
   int threads = 1;
+  bool turning = false;  // grains have spins, which friction changes
 };
 
 /// The options a case asks for; `stiffness` [N/m] is that of the soil's grains, k = (L/L0) k0.
@@ -62,13 +63,17 @@ class SurfaceContact {
   };
   template <bool EqualRadii>
   void find(const SandState& sand, const SurfaceSheet& sheet, double t);
+  template <bool Turning>
   void impact(const Touch& touch, SandState& sand, SurfaceSheet& sheet, double t, SurfaceContactCounts& counts) const;
+  template <bool Turning>
   void spring(Touch& touch, SandState& sand, SurfaceSheet& sheet, double h, double t,
               SurfaceContactCounts& counts) const;
-  template <bool Spring>
+  template <bool Spring, bool Turning>
   SurfaceContactCounts resolve(SandState& sand, SurfaceSheet& sheet, double h, double t);
 
   SurfaceContactOptions options_;
+  using Resolve = SurfaceContactCounts (SurfaceContact::*)(SandState&, SurfaceSheet&, double h, double t);
+  Resolve resolve_;                        // for the law and the grains of this scene
   std::vector<std::vector<Touch>> found_;  // by thread, together in the order of the grains
 };
 

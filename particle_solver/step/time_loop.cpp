@@ -6,6 +6,7 @@
 
 #include "particle_solver/step/detonate.hpp"
 #include "particle_solver/step/gas_drift.hpp"
+#include "particle_solver/step/grain_rotation.hpp"
 #include "particle_solver/step/sand_integrate.hpp"
 #include "particle_solver/step/wrap.hpp"
 
@@ -87,8 +88,11 @@ void TimeLoop::compose() {
   SandState* sand = scene_.has_sand ? &scene_.sand : nullptr;
   GasState* gas = scene_.has_gas ? &scene_.gas : nullptr;
   auto kick = [this](double, double h) { half_kick(scene_.sand, h, threads_); };
+  auto turn = [this](double, double h) { half_turn(scene_.sand, h, threads_); };
+  const bool turning = sand && !sand->spin.empty();
   if (sand) {
     add(begin_step_, "sand_integrate", kick);
+    if (turning) add(begin_step_, "grain_rotation", turn);
     for (const auto& effect : effects_)
       add(begin_step_, effect->name(), [this, one = effect.get()](double, double h) { one->run(scene_.sand, h); });
     add(begin_step_, "surface_contact", [this](double, double h) {
@@ -138,6 +142,7 @@ void TimeLoop::compose() {
   if (sand) {
     add(end_step_, "sand_pairs", [this](double, double h) { pairs_->forces(scene_.sand, h); });
     add(end_step_, "sand_integrate", kick);
+    if (turning) add(end_step_, "grain_rotation", turn);
   }
   if (hard_core_)
     add(end_step_, "hard_core", [this](double, double) {
@@ -251,6 +256,7 @@ ParticleEnergy TimeLoop::energy() const {
   }
   if (scene_.has_sand) {
     energy.sand_kinetic = kinetic_energy(scene_.sand);
+    energy.sand_rotation = rotation_energy(scene_.sand);
     energy.sand_elastic = pairs_->books().elastic_energy + totals_.contact_elastic;
     energy.friction_loss = pairs_->books().friction_loss;
     energy.damping_loss = pairs_->books().damping_loss;

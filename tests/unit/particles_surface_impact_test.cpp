@@ -125,7 +125,7 @@ TEST(Impact_OnAWallThatAnswersUnevenly, AddsNoEnergy) {
     const Vec3 side = random_vector(random, 1.0), n = side / norm(side), u = random_vector(random, 1.0);
     const Vec3 answer{between(random, 0.0, 5.0), between(random, 0.0, 5.0), between(random, 0.0, 5.0)};
     const SurfaceImpactLaw law{between(random, 0.0, 1.0), between(random, 0.0, 2.0)};
-    const Vec3 j = surface_impulse(law, u, n, 1.0, answer);
+    const Vec3 j = surface_impulse(law, u, n, 1.0, 1.0, answer);
     EXPECT_LE(dot(j, u) + 0.5 * (squared_norm(j) + dot(j, scaled(answer, j))), 1e-15);
   }
 }

@@ -13,6 +13,7 @@
   X(air) \
   X(ambient_pressure) \
   X(friction) \
+  X(grain_rotation) \
   X(damping) \
   X(radius_spread) \
   X(hard_core) \
