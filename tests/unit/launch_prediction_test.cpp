@@ -75,6 +75,27 @@ TEST(Prediction, EffectThatIsOff_HasNoPrice) {
   EXPECT_EQ(p.effects[1].seconds, 0.0);
 }
 
+TEST(Prediction, EffectsInTheParticles_CostInProportionToThem) {
+  CaseSpec spec = sand_case(10000, 50000, 10);
+  spec.effects = {
+      {"hard_core", true, "", false}, {"surface_recession", true, "", false}, {"grain_rotation", true, "", false}};
+  const CostPrediction quarter = predict_cost(spec, 2);
+  spec.run.quarter_symmetry = false;
+  const CostPrediction full = predict_cost(spec, 2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GT(quarter.effects[k].seconds, 0.0) << quarter.effects[k].name;
+    EXPECT_LT(quarter.effects[k].seconds, 0.1 * (quarter.gas_s + quarter.sand_s)) << quarter.effects[k].name;
+    EXPECT_DOUBLE_EQ(full.effects[k].seconds, 4.0 * quarter.effects[k].seconds) << quarter.effects[k].name;
+  }
+  const double turning = full.particle_bytes;
+  spec.effects[2].on = false;
+  const CostPrediction off = predict_cost(spec, 2);
+  EXPECT_DOUBLE_EQ(turning - off.particle_bytes, full.effects[2].bytes);
+  EXPECT_EQ(off.effects[2].seconds, 0.0);
+  ASSERT_TRUE(off.effects[2].overriding.has_value());
+  EXPECT_DOUBLE_EQ(off.effects[2].overriding->seconds, full.effects[2].seconds) << "what turning it on would cost";
+}
+
 TEST(Prediction, SceneWithoutSand_HasNoSandRow) {
   CaseSpec spec = sand_case(10000, 50000, 10);
   spec.soil.kind = SoilKind::none;
