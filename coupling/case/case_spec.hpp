@@ -68,6 +68,12 @@ struct CellSpec {
   friend bool operator==(const CellSpec&, const CellSpec&) = default;
 };
 
+/// Box that air.particles counts for [Borvik 2011, sec. 3.2], m3.
+inline constexpr double nominal_air_volume = 0.9;
+/// Particles in a cell of still air. Two are the fewest that collide; a shock brings six times as many. More would blur
+/// the front over larger cells: a cell is the resolution.
+inline constexpr double particles_an_air_cell = 2.0;
+
 struct AirSpec {
   bool on = false;
   double pressure = 101300.0, density = 1.3, gamma = 1.4;

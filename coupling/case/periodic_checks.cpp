@@ -18,8 +18,6 @@ using Paths = std::vector<std::string>;
 // 1.8 diameters, three to a period at least; in air nothing flies farther than a cell a step, and half a period must be
 // more than that from either side.
 constexpr double diameters_a_period = 6.0, air_cells_a_period = 4.0;
-constexpr double particles_an_air_cell = 2.0;  // scene/ambient_air.cpp
-constexpr double nominal_air_volume = 0.9;     // m3, that air.particles counts for
 
 std::string mm(double metres) {
   return readable_text(metres, quantity::length);

@@ -171,7 +171,7 @@ void plan_air(const CaseSpec& spec, const CostConstants& c, CostPrediction& p) {
       bubble_speed(spec, std::sqrt(3.0 * (e.gamma - 1.0) * e.energy / e.density), e.energy / e.density);
   const Vec3 sand = spec.soil.kind == SoilKind::none ? Vec3{} : SoilBody(spec.soil, {}).half_size();
   const double outer = std::max({spec.charge.radius, sand.x, sand.y, sand.z});
-  const double density = static_cast<double>(spec.air.particles) / 0.9;
+  const double density = static_cast<double>(spec.air.particles) / nominal_air_volume;
   p.air_particles = static_cast<long>(density * volume);
   p.air_steps = p.windows;
   constexpr int pieces = 100;
@@ -220,6 +220,7 @@ EffectPrice price_of(const Effect& effect, const EffectDecision& decision, const
   EffectPrice price;
   price.name = decision.name, price.on = decision.on, price.reason = decision.reason;
   const EffectCost cost = effect.cost != nullptr ? effect.cost(spec, work) : EffectCost{};
+  price.memory = cost.memory;
   if (decision.on) price.bytes = cost.bytes, price.seconds = std::max(0.0, cost.seconds);
   const bool switched = effect.switched_by != nullptr && cost.seconds > 0.0;
   const bool can_turn = decision.on ? !effect.inherent : effect.find(spec).possible || switched;
@@ -270,11 +271,10 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
   for (const EffectDecision& decision : spec.effects)
     for (const Effect& effect : effect_rules())
       if (decision.name == effect.name) p.effects.push_back(price_of(effect, decision, spec, work));
-  for (const EffectPrice& price : p.effects)
-    if (price.name == "relaxation")
-      p.structure_bytes += price.bytes;
-    else if (price.name == "grain_rotation")
-      p.particle_bytes += price.bytes;
+  for (const EffectPrice& price : p.effects) {
+    if (price.memory == MemoryOf::structure) p.structure_bytes += price.bytes;
+    if (price.memory == MemoryOf::particles) p.particle_bytes += price.bytes;
+  }
   return p;
 }
 

@@ -125,7 +125,7 @@ nlohmann::json ParticleBooks::report(const Participant::Times& times) const {
                 {"awake_volume_m3", full * static_cast<double>(air.cells.awake_count()) * air.cells.volume()}};
   }
   counts["particle_steps"] = totals.particle_steps;
-  counts["carried_by_the_surface"] = totals.carried.particles;
+  if (scene_.sheet.recedes()) counts["carried_by_the_surface"] = totals.carried.particles;
   counts["slipped_below_the_surface"] = loop_.boundary_totals().slipped;
   counts["deferred_hits"] = totals.deferred_hits;
   if (spec_.effect("hard_core")) counts["hard_core_hits"] = totals.hard_core_hits;

@@ -8,10 +8,10 @@
 //   slip of the surfaces   u = v_i - v_j - (a_i w_i + a_j w_j) x n = v_i - v_j - (r_i w_i + r_j w_j) x d / reach
 //   torque on i            T_i = -a_i n x f_i = r_i (f_i x d) / reach;  on j: T_j = r_j (f_i x d) / reach
 //   spin                   I dw/dt = T,  I = 2/5 m r^2, a solid sphere
-// Source: Geotechnique 29 (1979) 47, eqs. 3-9; Brilliantov et al., Phys. Rev. E 53 (1996) 5382,
-// eq. 2. Deviations: their levers are the radii; here levers end at the point of contact, which is what keeps the
-// angular momentum x x m v + I w of a pair exact: T_i + T_j + d x f_i = 0. The spin of a pair about its own normal
-// neither slides nor turns anything (no torsion), and there is no rolling resistance.
+// Source: Cundall & Strack, Geotechnique 29 (1979) 47; Brilliantov et al., Phys. Rev. E 53 (1996) 5382. Deviations:
+// their levers are the radii; here levers end at the point of contact, which is what keeps the angular momentum x x m v
+// + I w of a pair exact: T_i + T_j + d x f_i = 0. The spin of a pair about its own normal neither slides nor turns
+// anything (no torsion), and there is no rolling resistance.
 //
 // At rest against each other, surfaces are moved by a tangential force with 2/7 of the mass: 1/m + r^2/I = 7/(2 m).
 // A mirror image turns by (w_x, -w_y, -w_z) at a plane across x (spin is an axial vector): both surfaces move alike, so

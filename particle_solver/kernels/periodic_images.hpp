@@ -2,8 +2,8 @@
 // A scene that repeats: beside every body stand its images, one length L of the scene away in each direction. Of two
 // bodies the nearest images meet, the others are too far away [Allen & Tildesley, Computer Simulation of Liquids, 2nd
 // ed. (2017), sec. 1.6.3, minimum image]:
-//   gap' = gap - L round(gap / L)        what leaves through a face comes in again opposite:  x' = x - L floor((x - x0)
-//   / L)
+//   gap' = gap - L round(gap / L)
+//   x' = x - L floor((x - x0) / L)       what leaves through a face comes in again opposite
 // Both images of a pair see the same gap with opposite signs, bit by bit, because rounding to the nearest is odd.
 //
 // Symbols: gap, L, x, lower corner x0 [m]. A length of 0: the scene does not repeat along that axis, and gap and x stay

@@ -9,9 +9,6 @@
 namespace standoff::particles {
 namespace {
 
-// Particles in a cell of still air. Two are the fewest that collide; a shock brings six times as many. More would blur
-// the front over larger cells: a cell is the resolution.
-constexpr double particles_a_cell = 2.0;
 // Mean free path over the cell: as long as the cells can resolve, so that the front is as thin as they allow.
 constexpr double free_path_over_cell = 0.5;
 // Volume of the spheres by which air meets walls and grains, over the volume of the air: Z - 1 < 0.5 % if they met each
@@ -40,7 +37,7 @@ std::unique_ptr<Air> build_air(const CaseSpec& spec) {
   ambient.pressure = spec.air.pressure, ambient.density = spec.air.density;
   ambient.particle_mass = spec.air.density * nominal_air_volume / static_cast<double>(spec.air.particles);
   ambient.zeta = internal_degrees_of_freedom(spec.air.gamma);
-  const double size = std::cbrt(particles_a_cell / ambient.number_density());
+  const double size = std::cbrt(particles_an_air_cell / ambient.number_density());
   auto air = std::make_unique<Air>(Air{ambient,
                                        free_path_over_cell * size,
                                        0.0,

@@ -7,9 +7,6 @@
 
 namespace standoff::particles {
 
-/// Box that air.particles counts for [Borvik 2011, sec. 3.2], m3.
-inline constexpr double nominal_air_volume = 0.9;
-
 /// Air around the scene, all asleep. `internal_energy` off: gamma 5/3 at the same pressure.
 std::unique_ptr<Air> build_air(const CaseSpec& spec);
 

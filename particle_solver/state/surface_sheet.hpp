@@ -82,6 +82,8 @@ class SurfaceSheet {
   /// Velocity of that point now, after the hits since `where` was found.
   Vec3 velocity_at(const SheetPoint& where) const;
 
+  /// False: the plate is met at rest, whatever it does.
+  bool recedes() const { return recedes_; }
   /// Farthest that the start of this window has set a node, m.
   double jump() const { return jump_; }
 
@@ -146,8 +148,8 @@ class SurfaceSheet {
   std::vector<Vec3> node_impulse_;  // N s since the start
   Vec3 total_impulse_, surround_impulse_;
   double total_work_ = 0.0;
+  double jump_ = 0.0;  // m, of this window: every window sets it
   // Bounds over all nodes: motion since the bins were built, speed, height and rate of height.
-  double jump_ = 0.0;  // of this window: every window sets it
   double moved_ = 0.0, speed_ = 0.0, top_ = 0.0, rise_ = 0.0, bottom_ = 0.0, sink_ = 0.0;
 };
 

@@ -115,7 +115,7 @@ void TimeLoop::compose() {
     add(begin_step_, "drop_outgoing", [this](double, double) {
       boundaries_.take_out(scene_.sand, drop_outgoing_->find(scene_.sand, scene_.sheet), books_);
     });
-  if (gas != nullptr || scene_.has_air)
+  if (scene_.sheet.recedes() && (gas != nullptr || scene_.has_air))
     add(begin_window_, "surface_carry", [this, gas](double, double) {
       if (gas != nullptr) surface_carry(*gas, scene_.sheet, threads_, totals_.carried);
       if (scene_.has_air) surface_carry(scene_.air->particles, scene_.sheet, threads_, totals_.carried);

@@ -5,8 +5,8 @@
 //   sand_integrate (half kick) -> stages of effects/ -> surface_contact -> boundaries -> n x [ detonate -> gas_collide
 //   -> gas_drift ]
 //                  -> wrap, if the scene repeats -> sand_pairs -> sand_integrate (half kick) -> hard_core
-// Grains that turn: grain_rotation after each half kick. A window begins with surface_carry, where there is gas or air;
-// air moves then: air_collide -> air_drift -> air_boundaries.
+// Grains that turn: grain_rotation after each half kick. A window begins with surface_carry, where gas or air meets a
+// plate that recedes; air moves then: air_collide -> air_drift -> air_boundaries.
 //
 // A scene without sand is the bracket and boundaries; a scene without gas drifts once per step. What is absent is not
 // in the list: no test, no array, no timer row. Stage name = file name = timer name = row of the report.

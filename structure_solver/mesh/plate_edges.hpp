@@ -7,8 +7,7 @@
 //             held, its rotation is free: "hard" simple support that does not slide
 //   free      nothing
 //   symmetry  a mirror plane: the component normal to the edge, through the thickness, and so its slope; the edge
-//   slides
-//             in the plane of the mirror, across the plate included. The plate goes on as its own mirror image
+//             slides in the plane of the mirror, across the plate too. The plate goes on as its own mirror image
 //   bolted    a frame on both faces: beyond its square opening the nodes of the two faces are held, metal between them
 //             is not. The hole begins at the node line nearest to the edge of the opening
 // A quarter holds x on x = 0 and y on y = 0 besides.

@@ -10,6 +10,7 @@
 #include "particle_solver/packing/packed_cell.hpp"
 #include "particle_solver/step/time_loop.hpp"
 #include "tests/unit/case_folder.hpp"
+#include "tests/unit/particles_sand_clouds.hpp"
 #include "tests/unit/particles_surface_builders.hpp"
 #include "tests/unit/particles_turning_builders.hpp"
 
@@ -18,27 +19,15 @@ namespace {
 
 using namespace test;
 
-/// Two cubes of packed sand that fly into each other with 300 m/s each, the second one shifted across.
-SandState two_clouds(bool radii) {
-  constexpr double mass = 1e-5, cell_size = 0.02;
-  const PackedCell& cell = pack_cell({1000, 0.58, radii ? 0.025 : 0.0, 3});
-  std::vector<Vec3> places;
-  for (const Vec3& p : cell.position) places.push_back(cell_size * p);
-  for (const Vec3& p : cell.position) places.push_back(cell_size * (p + Vec3{1.11, 0.3, 0.2}));
-  SandState sand = make_grains(places, cell_size * cell.mean_radius, mass);
-  for (std::size_t i = 0; i < sand.size(); ++i) {
-    sand.velocity[i] = {i < 1000 ? 300.0 : -300.0, 0, 0};
-    if (!radii) continue;
-    sand.grain_radius.push_back(cell_size * cell.radius[i % 1000]);
-    sand.grain_mass.push_back(mass * std::pow(cell.radius[i % 1000] / cell.mean_radius, 3.0));
-  }
+SandState turning_clouds(bool radii) {
+  SandState sand = two_clouds(radii);
   let_grains_turn(sand);
   return sand;
 }
 
 struct Crash {
   Crash(const GrainLaw& law, bool radii, int threads, int steps)
-      : sand(two_clouds(radii)), pairs(turning_pairs(law, false, threads)), energy(kinetic_energy(sand)) {
+      : sand(turning_clouds(radii)), pairs(turning_pairs(law, false, threads)), energy(kinetic_energy(sand)) {
     const Vec3 start = angular_momentum(sand);
     pairs.forces(sand, 0.0);
     for (int n = 0; n < steps; ++n) turning_step(sand, pairs, pairs.stable_step(), threads);

@@ -8,23 +8,13 @@
 #include "coupling/base/stop.hpp"
 #include "structure_solver/app/structure_books.hpp"
 #include "tests/unit/structure_plate_case.hpp"
+#include "tests/verification/structure_frequency.hpp"
 
 namespace standoff::structure {
 namespace {
 
 double stability_limit(PlateHex64& model) {
-  RelaxationProblem& plate = *model.relaxation();
-  const Eigen::SparseMatrix<double> k =
-      plate.stiffness(std::vector<double>(static_cast<std::size_t>(plate.dofs()), 0.0));
-  const Eigen::Map<const Eigen::VectorXd> mass(plate.mass().data(), plate.dofs());
-  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(plate.dofs(), 0.0, 1e4).array().sin();
-  double largest = 0.0;
-  for (int i = 0; i < 600; ++i) {
-    x = (k * x).cwiseQuotient(mass).eval();
-    largest = x.norm();
-    x /= largest;
-  }
-  return 2.0 / std::sqrt(largest);
+  return testing::fastest_mode(model).stability_limit();
 }
 
 struct Watched {

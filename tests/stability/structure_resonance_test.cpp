@@ -6,29 +6,12 @@
 
 #include "structure_solver/step/central_difference.hpp"
 #include "tests/unit/structure_plate_case.hpp"
+#include "tests/verification/structure_frequency.hpp"
 
 namespace standoff::structure {
 namespace {
 
-struct FastestMode {
-  Eigen::VectorXd shape;  // largest entry 1
-  double omega = 0.0;     // 1/s
-};
-
-FastestMode fastest_mode(PlateHex64& model) {
-  RelaxationProblem& plate = *model.relaxation();
-  const Eigen::SparseMatrix<double> k =
-      plate.stiffness(std::vector<double>(static_cast<std::size_t>(plate.dofs()), 0.0));
-  const Eigen::Map<const Eigen::VectorXd> mass(plate.mass().data(), plate.dofs());
-  Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(plate.dofs(), 0.0, 1e4).array().sin();
-  double largest = 0.0;
-  for (int i = 0; i < 2000; ++i) {
-    x = (k * x).cwiseQuotient(mass).eval();
-    largest = x.norm();
-    x /= largest;
-  }
-  return {x / x.cwiseAbs().maxCoeff(), std::sqrt(largest)};
-}
+using testing::fastest_mode;
 
 /// Largest energy over the first, in `steps` steps from the fastest mode at `speed` [m/s].
 double energy_gain(double share_of_stable_step, double speed, int steps) {
@@ -36,13 +19,13 @@ double energy_gain(double share_of_stable_step, double speed, int steps) {
   spec.plate.material.law = MaterialLaw::elastic;
   spec.plate.edges = "free";
   PlateHex64 model(spec, 1);
-  const FastestMode mode = fastest_mode(model);
+  const testing::FastestMode mode = fastest_mode(model, 2000);
   const Eigen::VectorXd v = speed * mode.shape;
   model.relaxation()->set_state(std::vector<double>(static_cast<std::size_t>(v.size()), 0.0),
                                 std::vector<double>(v.data(), v.data() + v.size()));
   double first = 0.0, largest = 0.0;
   for (int i = 0; i < steps; ++i) {
-    model.step(share_of_stable_step * 2.0 / mode.omega);
+    model.step(share_of_stable_step * mode.stability_limit());
     const StructureLedger books = model.ledger();
     const double energy = books.kinetic + books.elastic;
     if (i == 0) first = energy;

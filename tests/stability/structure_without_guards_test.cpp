@@ -27,9 +27,9 @@ TEST(InsideOut_WithoutGuard, MirroredElement_IsFreeOfStressAndHasNegativeVolume)
   EXPECT_FALSE(sums.sound) << "what the guard asks";
 }
 
-// A plate let go from 1 mm has no kinetic energy: by that alone it rests there. Half a period later it is at -1 mm.
-// The unbalanced force says so at once, the drift over one period after it. Half a period of the clamped plate, 176 Hz;
-// 2 % for the shape, which is not quite that of the first mode (1 - cos)(1 - cos): it holds 1.5 % of others.
+// A plate let go from 1 mm has no kinetic energy: by that alone it rests there. Within one period of the clamped plate,
+// 176 Hz, it has been near -1 mm. The unbalanced force says so at once, the drift after that period. (1 + cos)(1 + cos)
+// is not quite the first mode, and other modes have other phases by then: a tenth for them.
 TEST(Rest_KineticEnergyAlone, PlateLetGoFromOneMillimetre_WouldRestWhereItIs) {
   CaseSpec spec = testing::plate_case(4, true);
   spec.plate.material.law = MaterialLaw::elastic;

@@ -25,8 +25,12 @@ struct SceneWork {
   double copies = 1.0;  // full domain = copies x simulated part
 };
 
+/// Whose memory an effect adds to; `counted`: it is in the bytes of a particle or a Gauss point already.
+enum class MemoryOf { counted, particles, structure };
+
 struct EffectCost {
   double bytes = 0.0, seconds = 0.0;  // of one core; what the effect takes while it is on
+  MemoryOf memory = MemoryOf::counted;
 };
 
 struct Effect {

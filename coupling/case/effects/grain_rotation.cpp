@@ -24,7 +24,9 @@ EffectCost cost(const CaseSpec&, const SceneWork& work) {
   // cases/borvik_2011/dry_150mm --level coarse --threads 1 --set plate.model=rigid_plate --set run.until="0.3 ms"]
   constexpr double turning_s = 10e-9;
   constexpr double bytes = 6.0 * sizeof(double) + 32.0;  // spin, torque; what it turned in the step
-  return {.bytes = work.grains * bytes, .seconds = work.sand_steps * work.grains * turning_s};
+  return {.bytes = work.grains * bytes,
+          .seconds = work.sand_steps * work.grains * turning_s,
+          .memory = MemoryOf::particles};
 }
 
 }  // namespace

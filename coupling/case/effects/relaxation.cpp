@@ -15,7 +15,7 @@ EffectFinding find(const CaseSpec& spec) {
 
 EffectCost cost(const CaseSpec&, const SceneWork& work) {
   constexpr double factor_bytes = 12e3;  // of the sparse factor, a Gauss point
-  return {.bytes = work.points * factor_bytes, .seconds = work.relaxation_s};
+  return {.bytes = work.points * factor_bytes, .seconds = work.relaxation_s, .memory = MemoryOf::structure};
 }
 
 }  // namespace

@@ -17,10 +17,10 @@ EffectFinding find(const CaseSpec& spec) {
 
 EffectCost cost(const CaseSpec& spec, const SceneWork& work) {
   // Of the time of the particles, on an AMD EPYC core: they follow the plate and touch it longer, and a sheet that has
-  // moved is searched with slack. 6.2 against 6.5 s until 0.5 ms [standoff run cases/borvik_2011/dry_150mm --level
-  // coarse
-  // --threads 1 --set run.until="0.5 ms"], 40.5 against 43.9 s of everything until 2 ms [standoff cost
-  // cases/borvik_2011/dry_150mm --effects --levels coarse --seeds 1].
+  // moved is searched with slack. 6.2 against 6.5 s of
+  //   standoff run cases/borvik_2011/dry_150mm --level coarse --threads 1 --set run.until="0.5 ms"
+  // and 40.5 against 43.9 s of everything until 2 ms, of
+  //   standoff cost cases/borvik_2011/dry_150mm --effects --levels coarse --seeds 1
   constexpr double share = 0.05;
   return {.seconds = share * (work.gas_s + (spec.air.on ? work.air_s : 0.0) + work.sand_s)};
 }
