@@ -5,9 +5,10 @@
 //   first that of the elastic column, (K + 4/3 G) V / 3. A lane that has converged waits for its neighbours unchanged.
 // f = sum_q w_q S : dE/du at fixed alpha: r = 0 makes it the whole slope of W.
 //
-// DATA LAYOUT  u, force: T[3][8] (component, node)     history: T[8][Law::fields]     alpha: one T per element
+// DATA LAYOUT  u, force: T[3][8] (component, node)     history: T[8][fields]     alpha: one T per element
 #include "structure_solver/elements/hex8.hpp"
-#include "structure_solver/step/hex_force.hpp"
+#include "structure_solver/elements/hex_geometry.hpp"
+#include "structure_solver/step/gauss_points.hpp"
 
 namespace standoff::structure {
 
@@ -19,42 +20,45 @@ inline constexpr double hex8_tolerance_elastic = 1e-13, hex8_tolerance_flow = 1e
 /// What the eight points answer to one alpha.
 template <class T>
 struct Hex8Points {
-  PointHistory<T> history[8];
   Sym3<T> stress[8];  // second Piola-Kirchhoff
-  T elastic, inelastic, residual;
-  MaskOf<T> sound, flowed;
+  T residual;
+  ElementSums<T> sums;
+  T history[8 * most_fields];  // after the step
 };
 
-template <class Law, class T>
-inline void evaluate_points(const MetalParameters& metal, double weight, const PointStep& step,
-                            const Sym3<T> (&strain)[8], T alpha, const T* history, Hex8Points<T>& out) {
-  out.elastic = out.inelastic = out.residual = T(0.0);
-  out.sound = Lanes<T>::all_true(), out.flowed = Lanes<T>::all_false();
+/// `update`: update_points of the metal, with `fields` numbers a point.
+template <class T, class Update>
+inline void evaluate_points(const MetalParameters& metal, double volume, const PointStep& step,
+                            const Sym3<T> (&strain)[8], T alpha, int fields, const T* history, Update update,
+                            Hex8Points<T>& out) {
+  double weight[8];
+  Mat3<T> h[8];
+  T gradient[9 * 8];
   for (int q = 0; q < 8; ++q) {
-    const double zeta = hex8_point(q).z;
+    weight[q] = 0.125 * volume;
     Sym3<T> e = strain[q];
-    e.zz = fused(alpha, T(2.0 * zeta), e.zz);
-    const Mat3<T> h = triangular_gradient(e);
-    out.history[q] = load_history<Law>(metal, history + q * Law::fields);
-    const PointResult<T> point = update_point<Law>(metal, h, step, out.history[q]);
-    out.stress[q] = pulled_back(h, point.p);
-    out.elastic = fused(T(weight), point.elastic, out.elastic);
-    out.inelastic = fused(T(weight), point.inelastic, out.inelastic);
-    out.residual = fused(T(weight * zeta), out.stress[q].zz, out.residual);
-    out.sound = out.sound & (point.volume_ratio > T(0.0));
-    out.flowed = out.flowed | point.flowed;
+    e.zz = fused(alpha, T(2.0 * hex8_point(q).z), e.zz);
+    h[q] = triangular_gradient(e);
+    store_gradient(h[q], gradient, 8, q);
+  }
+  for (int i = 0; i < 8 * fields; ++i) out.history[i] = history[i];
+  out.sums = update(metal, step, true, 8, weight, gradient, out.history);
+  out.residual = T(0.0);
+  for (int q = 0; q < 8; ++q) {
+    out.stress[q] = pulled_back(h[q], load_gradient(gradient, 8, q));
+    out.residual = fused(T(weight[q] * hex8_point(q).z), out.stress[q].zz, out.residual);
   }
 }
 
 /// The points at the alpha that does no work, which is returned.
-template <class Law, class T>
-inline T relax_thickness(const MetalParameters& metal, double weight, const PointStep& step, const Sym3<T> (&strain)[8],
-                         T alpha, const T* history, Hex8Points<T>& points) {
-  const double column = (metal.bulk + 4.0 / 3.0 * metal.shear) * 8.0 * weight / 3.0;
+template <class T, class Update>
+inline T relax_thickness(const MetalParameters& metal, double volume, const PointStep& step, const Sym3<T> (&strain)[8],
+                         T alpha, int fields, const T* history, Update update, Hex8Points<T>& points) {
+  const double column = (metal.bulk + 4.0 / 3.0 * metal.shear) * volume / 3.0;
   const T limit = T(column * (step.flow ? hex8_tolerance_flow : hex8_tolerance_elastic));
   T slope = T(column), before = T(0.0), moved = T(0.0);
   for (int i = 0; i < hex8_iterations; ++i) {
-    evaluate_points<Law>(metal, weight, step, strain, alpha, history, points);
+    evaluate_points(metal, volume, step, strain, alpha, fields, history, update, points);
     const T r = points.residual;
     const MaskOf<T> converged = (r <= limit) & (T(0.0) - limit <= r);
     if (!any(invert(converged))) break;
@@ -113,27 +117,32 @@ inline MaskOf<T> hex8_upright(const T (&u)[3][8], const double (&scale)[3]) {
 }
 
 /// Force at displacement u from the history and the enhanced strain, which are written only if `commit`.
-template <class Law, class T>
-inline ElementSums<T> hex8_force(const MetalParameters& metal, const BoxGeometryOf<2>& box, const PointStep& step,
-                                 bool commit, const T (&u)[3][8], T* history, T& alpha, T (&force)[3][8]) {
+template <class T, class Update>
+inline ElementSums<T> hex8_force_of(const MetalParameters& metal, const BoxGeometryOf<2>& box, const PointStep& step,
+                                    bool commit, const T (&u)[3][8], int fields, T* history, T& alpha, T (&force)[3][8],
+                                    Update update) {
   T modes[3][8], mode_force[3][8];
   for (int c = 0; c < 3; ++c) hex8_modes(u[c], modes[c]);
   const AcrossStrains<T> across = across_strains(modes, box.scale);
   Sym3<T> strain[8];
   for (int q = 0; q < 8; ++q) strain[q] = twice_assumed_strain(modes, box.scale, across, hex8_point(q));
-  const double weight = 0.125 * box.volume;
   Hex8Points<T> points;
-  const T relaxed = relax_thickness<Law>(metal, weight, step, strain, alpha, history, points);
-  const MaskOf<T> sound = points.sound & hex8_upright(modes, box.scale);
+  const T relaxed = relax_thickness(metal, box.volume, step, strain, alpha, fields, history, update, points);
+  points.sums.sound = points.sums.sound & hex8_upright(modes, box.scale);
   if (commit) {
-    alpha = select(sound, relaxed, alpha);
-    if constexpr (Law::plasticity)
-      if (any(points.flowed))
-        for (int q = 0; q < 8; ++q) store_history<Law>(points.history[q], history + q * Law::fields);
+    alpha = select(points.sums.sound, relaxed, alpha);
+    for (int i = 0; i < 8 * fields; ++i) history[i] = points.history[i];
   }
-  hex8_mode_forces(modes, box.scale, weight, points.stress, mode_force);
+  hex8_mode_forces(modes, box.scale, 0.125 * box.volume, points.stress, mode_force);
   for (int c = 0; c < 3; ++c) hex8_modes_transpose(mode_force[c], force[c]);
-  return {points.elastic, points.inelastic, sound};
+  return points.sums;
+}
+
+/// The same for a metal known at compile time.
+template <class Law, class T>
+inline ElementSums<T> hex8_force(const MetalParameters& metal, const BoxGeometryOf<2>& box, const PointStep& step,
+                                 bool commit, const T (&u)[3][8], T* history, T& alpha, T (&force)[3][8]) {
+  return hex8_force_of(metal, box, step, commit, u, Law::fields, history, alpha, force, &update_points<Law, T>);
 }
 
 }  // namespace standoff::structure

@@ -14,24 +14,12 @@ double initial_flow(const MetalParameters& metal, Hardening hardening) {
 
 }  // namespace
 
-KernelChoice choose_kernel(const MetalEffects& effects, ElementKind kind) {
-  if (!effects.plasticity) return elastic_kernel(kind);
-  switch (effects.rate) {
-    case RateLaw::power:
-      return choose_kernel_with_rate<RateLaw::power>(effects, kind);
-    case RateLaw::logarithmic:
-      return choose_kernel_with_rate<RateLaw::logarithmic>(effects, kind);
-    case RateLaw::none:
-      break;
-  }
-  return choose_kernel_with_rate<RateLaw::none>(effects, kind);
-}
-
 InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal, const MetalEffects& effects,
                              int threads)
     : mesh_(mesh),
       metal_(metal),
-      choice_(choose_kernel(effects, {mesh.per_edge(), mesh.bent()})),
+      law_(choose_point_law(effects, widest_here())),
+      kernel_(choose_element_kernel({mesh.per_edge(), mesh.bent()})),
       threads_(threads),
       count_(static_cast<std::size_t>(mesh.element_nodes())),
       component_stride_(static_cast<std::ptrdiff_t>(4 * count_)) {
@@ -57,7 +45,7 @@ InternalForce::InternalForce(const PlateMesh& mesh, const MetalParameters& metal
       node_entry_[static_cast<std::size_t>(next[static_cast<std::size_t>(mesh.element_node(e, a))]++)] =
           static_cast<std::int32_t>((e / 4 * 3 * local_nodes + a) * 4 + e % 4);
 
-  const HistoryLayout& layout = choice_.layout;
+  const HistoryLayout& layout = law_.layout;
   history_.assign(sums_.size() * count_ * static_cast<std::size_t>(layout.fields), Pack4(0.0));
   const double static_stress = initial_flow(metal, effects.hardening);
   for (std::size_t row = 0; row < history_.size(); row += static_cast<std::size_t>(layout.fields)) {
@@ -92,12 +80,12 @@ void InternalForce::shape_batches() {
 }
 
 ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step, bool commit) {
-  const auto history_stride = count_ * static_cast<std::size_t>(choice_.layout.fields);
+  const auto history_stride = count_ * static_cast<std::size_t>(law_.layout.fields);
   const auto count = sums_.size();
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t b = 0; b < count; ++b)
-    sums_[b] = choice_.kernel(metal_, shapes_[b], step, commit, u.data(), &nodes_[b * 4 * count_],
-                              history_.data() + b * history_stride, alpha_of(b), &buffer_[b * 3 * count_]);
+    sums_[b] = kernel_(metal_, law_, shapes_[b], step, commit, u.data(), &nodes_[b * 4 * count_],
+                       history_.data() + b * history_stride, alpha_of(b), &buffer_[b * 3 * count_]);
   ForceSums total;
   const long elements = mesh_.element_count();
   for (long e = 0; e < elements; ++e) {
@@ -110,14 +98,14 @@ ForceSums InternalForce::evaluate(std::span<const Vec3> u, const PointStep& step
 }
 
 std::vector<double> InternalForce::enhanced_strains_at(std::span<const Vec3> u, double dt) const {
-  const std::size_t stride = count_ * static_cast<std::size_t>(choice_.layout.fields);
+  const std::size_t stride = count_ * static_cast<std::size_t>(law_.layout.fields);
   std::vector<double> strains;
   std::vector<Pack4> history(stride), force(3 * count_);
   for (std::size_t b = 0; b < enhanced_.size(); ++b) {
     std::copy_n(history_.data() + b * stride, stride, history.data());
     Pack4 alpha = enhanced_[b];
-    choice_.kernel(metal_, shapes_[b], {dt, true}, true, u.data(), &nodes_[b * 4 * count_], history.data(), &alpha,
-                   force.data());
+    kernel_(metal_, law_, shapes_[b], {dt, true}, true, u.data(), &nodes_[b * 4 * count_], history.data(), &alpha,
+            force.data());
     for (int i = 0; i < 4; ++i) strains.push_back(lane(alpha, i));
   }
   strains.resize(static_cast<std::size_t>(mesh_.element_count()));
@@ -127,7 +115,7 @@ std::vector<double> InternalForce::enhanced_strains_at(std::span<const Vec3> u, 
 void InternalForce::add_to(StateHash& hash) const {
   for (long e = 0; e < mesh_.element_count(); ++e)
     for (int q = 0; q < points(); ++q)
-      for (int f = 0; f < choice_.layout.fields; ++f) hash.add(history(e, q, f));
+      for (int f = 0; f < law_.layout.fields; ++f) hash.add(history(e, q, f));
   if (enhanced_.empty()) return;
   for (long e = 0; e < mesh_.element_count(); ++e) hash.add(enhanced_strain(e));
 }
@@ -144,11 +132,11 @@ void InternalForce::element_stiffness(std::span<const Vec3> u, long batch, std::
   }
   const std::size_t dofs = 3 * count_;
   std::vector<Pack4> plus(dofs), minus(dofs);
-  Pack4* const history = history_.data() + b * count_ * static_cast<std::size_t>(choice_.layout.fields);
+  Pack4* const history = history_.data() + b * count_ * static_cast<std::size_t>(law_.layout.fields);
   auto force_at = [&](std::size_t node, double Vec3::*component, double shift, std::vector<Pack4>& f) {
     const auto saved = local;
     for (std::size_t i = 0; i < 4; ++i) local[4 * node + i].*component += shift;
-    choice_.kernel(metal_, shapes_[b], {0.0, false}, false, local.data(), own.data(), history, alpha_of(b), f.data());
+    kernel_(metal_, law_, shapes_[b], {0.0, false}, false, local.data(), own.data(), history, alpha_of(b), f.data());
     local = saved;
   };
   double Vec3::*const components[3] = {&Vec3::x, &Vec3::y, &Vec3::z};

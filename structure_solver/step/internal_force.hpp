@@ -14,7 +14,7 @@
 
 #include "coupling/base/state_hash.hpp"
 #include "structure_solver/mesh/plate_mesh.hpp"
-#include "structure_solver/step/batch_kernels.hpp"
+#include "structure_solver/step/element_kernels.hpp"
 
 namespace standoff::structure {
 
@@ -41,15 +41,15 @@ class InternalForce {
 
   /// One number of the committed history.
   double history(long element, int point, int field) const {
-    const auto row = (element / 4 * points() + point) * choice_.layout.fields + field;
+    const auto row = (element / 4 * points() + point) * law_.layout.fields + field;
     return lane(history_[static_cast<std::size_t>(row)], static_cast<int>(element % 4));
   }
   double plastic_strain(long element, int point) const {
-    return choice_.layout.strain < 0 ? 0.0 : history(element, point, choice_.layout.strain);
+    return law_.layout.strain < 0 ? 0.0 : history(element, point, law_.layout.strain);
   }
   double temperature(long element, int point) const {
-    return choice_.layout.temperature < 0 ? metal_.flow.room_temperature
-                                          : history(element, point, choice_.layout.temperature);
+    return law_.layout.temperature < 0 ? metal_.flow.room_temperature
+                                       : history(element, point, law_.layout.temperature);
   }
   /// The shape at rest of element e.
   const BatchShape& shape(long e) const { return shapes_[static_cast<std::size_t>(e / 4)]; }
@@ -61,7 +61,7 @@ class InternalForce {
   std::vector<double> enhanced_strains_at(std::span<const Vec3> u, double dt) const;
   /// Gauss points of an element; as many as nodes.
   int points() const { return static_cast<int>(count_); }
-  const HistoryLayout& layout() const { return choice_.layout; }
+  const HistoryLayout& layout() const { return law_.layout; }
   const MetalParameters& metal() const { return metal_; }
   std::size_t history_bytes() const { return (history_.size() + enhanced_.size()) * sizeof(Pack4); }
   void add_to(StateHash& hash) const;
@@ -88,7 +88,8 @@ class InternalForce {
   MetalParameters metal_;
   std::vector<CurvedGeometry> curved_;  // of a pipe, one a layer of its wall
   std::vector<BatchShape> shapes_;      // per batch
-  KernelChoice choice_;
+  PointLaw law_;
+  ElementKernel kernel_;
   int threads_;
   std::size_t count_;                // nodes, and Gauss points, of an element
   std::ptrdiff_t component_stride_;  // in the buffer, counted in numbers

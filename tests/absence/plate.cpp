@@ -2,6 +2,7 @@
 // the element kernel of a metal without heat by hand.
 #include "coupling/base/state_hash.hpp"
 #include "structure_solver/models/plate_hex64/plate_solid.hpp"
+#include "structure_solver/step/hex_force.hpp"
 #include "tests/absence/measured.hpp"
 
 namespace {
@@ -83,8 +84,10 @@ class ByHand {
       batch.u[1][a] = Pack4(Pack4::Raw{p.y, q.y, r.y, s.y});
       batch.u[2][a] = Pack4(Pack4::Raw{p.z, q.z, r.z, s.z});
     }
-    const auto sums =
-        hex_force<ColdMetal>(metal_, mesh_.geometry(), step, commit, batch.u, batch.history.data(), forces_[b].of_node);
+    const auto sums = hex_force_of(
+        mesh_.geometry(), batch.u, forces_[b].of_node, [&](int points, const double* weight, Pack4* gradient) {
+          return cold_metal_(metal_, step, commit, points, weight, gradient, batch.history.data());
+        });
     for (int i = 0; i < 4; ++i) {
       elastic_ += lane(sums.elastic, i), gained_ += lane(sums.inelastic, i);
       sound_ = sound_ && lane(sums.sound, i);
@@ -101,6 +104,7 @@ class ByHand {
 
   PlateMesh mesh_;
   MetalParameters metal_;
+  PointUpdate cold_metal_ = &update_points<ColdMetal, Pack4>;
   NodalState state_;
   double elastic_ = 0.0, inelastic_ = 0.0, gained_ = 0.0;  // J: stored, spent since the start, spent in this step
   bool sound_ = true;

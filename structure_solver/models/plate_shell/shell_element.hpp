@@ -8,7 +8,7 @@
 // stretch. It is the starting point of the next plane stress solution and the thickness that is shown.
 #include "structure_solver/elements/mitc4.hpp"
 #include "structure_solver/materials/plane_stress.hpp"
-#include "structure_solver/step/hex_force.hpp"
+#include "structure_solver/step/gauss_points.hpp"
 
 namespace standoff::structure {
 

@@ -2,7 +2,7 @@
 // The force kernel of a shell, compiled once for every combination of effects and chosen once, before the time loop: an
 // effect that is off has no instruction and no memory in it.
 #include "structure_solver/models/plate_shell/shell_element.hpp"
-#include "structure_solver/step/batch_kernels.hpp"
+#include "structure_solver/step/point_laws.hpp"
 
 namespace standoff::structure {
 

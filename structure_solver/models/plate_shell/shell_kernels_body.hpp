@@ -6,23 +6,12 @@ namespace standoff::structure {
 
 template <class Law>
 ShellKernel shell_kernel_of() {
-  return {&shell_force<Law>,
-          &shell_stress<Law>,
-          {Law::fields, Law::strain_field, Law::temperature_field, Law::static_stress_field, Law::x_field}};
-}
-
-template <Hardening Hard, RateLaw Rate>
-ShellKernel shell_kernel_with_heat(const MetalEffects& e) {
-  if (!e.heating) return shell_kernel_of<Metal<Hard, Rate, false, false>>();
-  return e.expansion ? shell_kernel_of<Metal<Hard, Rate, true, true>>()
-                     : shell_kernel_of<Metal<Hard, Rate, true, false>>();
+  return {&shell_force<Law>, &shell_stress<Law>, layout_of<Law>};
 }
 
 template <RateLaw Rate>
-ShellKernel choose_shell_kernel_with_rate(const MetalEffects& e) {
-  if (e.hardening == Hardening::power) return shell_kernel_with_heat<Hardening::power, Rate>(e);
-  if (e.hardening == Hardening::table) return shell_kernel_with_heat<Hardening::table, Rate>(e);
-  return shell_kernel_with_heat<Hardening::none, Rate>(e);
+ShellKernel choose_shell_kernel_with_rate(const MetalEffects& effects) {
+  return with_metal<Rate>(effects, []<class Law>() { return shell_kernel_of<Law>(); });
 }
 
 }  // namespace standoff::structure

@@ -1,5 +1,0 @@
-#include "structure_solver/step/batch_kernel_body.hpp"
-
-namespace standoff::structure {
-template KernelChoice choose_kernel_with_rate<RateLaw::power>(const MetalEffects&, ElementKind);
-}  // namespace standoff::structure
