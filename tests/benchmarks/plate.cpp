@@ -124,7 +124,8 @@ int main() {
       std::printf("| %s, %d x %d x 1 | %.0f %% | %.2e | %.2f |\n", elastic ? "elastic" : "plastic", elements, elements,
                   100.0 * one.flowing, one.per_core_s, two.per_wall_s / one.per_wall_s);
     }
-  std::printf("\nPeak resident memory of the explicit phase, full plate of 40 x 40 x 1: %.0f MiB\n", memory);
+  std::printf("\nLanes of a register: %s\n", widest_here() == Width::eight_lanes ? "8 (AVX-512)" : "4 (AVX2)");
+  std::printf("Peak resident memory of the explicit phase, full plate of 40 x 40 x 1: %.0f MiB\n", memory);
   double load[1] = {0.0};
   if (getloadavg(load, 1) == 1) std::printf("Load of the machine in the last minute: %.1f\n", load[0]);
   return 0;
