@@ -7,6 +7,7 @@
 #include "coupling/case/effects/registry.hpp"
 #include "coupling/case/layers.hpp"
 #include "coupling/case/periodic_checks.hpp"
+#include "coupling/case/plate_checks.hpp"
 #include "coupling/case/resolved_text.hpp"
 
 namespace standoff {
@@ -44,6 +45,7 @@ CaseRead read_case(const std::string& path, const CaseOverrides& overrides) {
     spec.folder = layers.folder;
     spec.references = layers.references;
     check_scene(spec, settings, diagnostics);
+    check_plate(spec, settings, diagnostics);
     check_periodic_scene(spec, settings, diagnostics);
     if (!diagnostics.any_error()) {
       decide(spec, settings, diagnostics);

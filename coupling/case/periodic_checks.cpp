@@ -7,30 +7,24 @@
 
 #include <fmt/format.h>
 
+#include "coupling/case/scene_findings.hpp"
 #include "coupling/case/soil_body.hpp"
 
 namespace standoff {
 namespace {
-
-using Paths = std::vector<std::string>;
 
 // A particle meets the nearest image of a partner alone. Grains are searched in cells of a diameter and a skin, up to
 // 1.8 diameters, three to a period at least; in air nothing flies farther than a cell a step, and half a period must be
 // more than that from either side.
 constexpr double diameters_a_period = 6.0, air_cells_a_period = 4.0;
 
-std::string mm(double metres) {
-  return readable_text(metres, quantity::length);
-}
-
 double diameter_of_spheres(double volume, double count) {
   return count > 0.0 ? std::cbrt(6.0 * volume / (std::numbers::pi * count)) : 0.0;
 }
 
-class PeriodicCheck {
+class PeriodicCheck : private SceneFindings {
  public:
-  PeriodicCheck(const CaseSpec& spec, const Settings& settings, Diagnostics& diagnostics)
-      : spec_(spec), settings_(settings), diagnostics_(diagnostics) {}
+  using SceneFindings::SceneFindings;
 
   void run() {
     if (spec_.plate.is_pipe())
@@ -49,13 +43,6 @@ class PeriodicCheck {
   }
 
  private:
-  bool usable(const Paths& paths) const {
-    return std::all_of(paths.begin(), paths.end(),
-                       [this](const std::string& path) { return settings_.has(path) && !settings_.is_wrong(path); });
-  }
-  void finding(bool wrong, const Paths& paths, const std::string& message, const std::string& hint) {
-    if (wrong) diagnostics_.error(settings_.blame(paths), message, hint);
-  }
   static Paths with_domain(Paths paths) {
     paths.insert(paths.end(), {"domain.size", "domain.lower", "domain.upper"});
     return paths;
@@ -109,10 +96,6 @@ class PeriodicCheck {
             "let it reach the faces on both sides, or leave room at both");
     return wrong;
   }
-
-  const CaseSpec& spec_;
-  const Settings& settings_;
-  Diagnostics& diagnostics_;
 };
 
 }  // namespace

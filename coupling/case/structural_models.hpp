@@ -15,7 +15,8 @@ struct StructuralModelEntry {
   /// tests/validation/model_costs.py, on dry_150mm at level coarse. 0.01: no more than can be told from nothing. 0:
   /// there are no windows to cost anything.
   double relative_cost, relative_step;
-  int points;  // that keep a history, in an element of the case
+  int points;                                                      // that keep a history, in an element of the case
+  std::string_view edges = "clamped|pinned|free|symmetry|bolted";  // of plate.edges it knows
 };
 
 inline constexpr StructuralModelEntry structural_models[] = {
@@ -34,17 +35,18 @@ inline constexpr StructuralModelEntry structural_models[] = {
      "large deflection, membrane and bending waves, transverse shear; Johnson-Cook hardening, rate, heating and "
      "thermal "
      "expansion, thinning; the way to rest",
-     "stress normal to the plate, waves through the thickness, the thickness under the load, fracture", 0.21, 4.05, 20},
+     "stress normal to the plate, waves through the thickness, the thickness under the load, fracture", 0.21, 4.05, 20,
+     "clamped|pinned|free|symmetry"},
     {"rigid_plate", "The plate as one rigid body: held, or with free edges pushed along z by the load.",
      "the load: impulse and where it lands", "all deformation; held, the load is that on a plate that does not recede",
      0.01, 5.36, 0},
     {"single_dof", "The plate as one spring, mass and yield: hinges and a stretched sheet, closed form (Biggs, Jones).",
      "what an impulse does to a square plate, to a factor, in no time; hardening, rate and heating of the mean strain; "
      "the way to rest",
-     "the shape of deflection and load, waves, local strain", 0.01, 5.36, 0},
+     "the shape of deflection and load, waves, local strain", 0.01, 5.36, 0, "clamped|pinned"},
     {"pipe_hex64", "Pipe of cubic hexahedra with 64 nodes, loaded from inside: the cylinder test.",
      "expansion of the wall at large strain, waves in it; Johnson-Cook hardening, rate, heating and thermal expansion",
-     "fracture of the wall, which ends a test; gas leaves at the ends", 7.3, 0.174, 64},
+     "fracture of the wall, which ends a test; gas leaves at the ends", 7.3, 0.174, 64, "free|clamped|symmetry"},
     {"material_point", "One point of the plate's material, without load: `standoff run` draws its flow curves.",
      "hardening, rate and temperature as the plate's elements compute them",
      "the plate, the charge and everything else", 0.0, 0.0, 0}};
@@ -76,6 +78,16 @@ constexpr const StructuralModelEntry& structural_model(std::string_view name) {
   for (const StructuralModelEntry& model : structural_models)
     if (model.name == name) return model;
   return structural_models[0];
+}
+
+/// Whether `word` is one of `words`, which | separates.
+constexpr bool is_one_of(std::string_view word, std::string_view words) {
+  for (;;) {
+    const std::size_t end = words.find('|');
+    if (words.substr(0, end) == word) return true;
+    if (end == std::string_view::npos) return false;
+    words.remove_prefix(end + 1);
+  }
 }
 
 /// "plate_hex64|rigid_plate|…", as the schema writes choices.

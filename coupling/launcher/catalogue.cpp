@@ -198,6 +198,7 @@ OrderedJson models_json() {
          {"doc", model.doc},
          {"resolves", model.resolves},
          {"leaves_out", model.leaves_out},
+         {"edges", model.edges},
          {"relative_cost", model.relative_cost > 0.0 ? OrderedJson(model.relative_cost) : OrderedJson(nullptr)},
          {"default", find_key("plate.model")->fallback == model.name}});
   return list;
@@ -206,9 +207,9 @@ OrderedJson models_json() {
 std::string models_text() {
   std::string text;
   for (const StructuralModelEntry& model : structural_models)
-    text += fmt::format("{}{}\n  {}\n  resolves    {}\n  leaves out  {}\n  cost        {}\n", model.name,
-                        find_key("plate.model")->fallback == model.name ? " (default)" : "", model.doc, model.resolves,
-                        model.leaves_out, cost_of(model));
+    text += fmt::format("{}{}\n  {}\n  resolves    {}\n  leaves out  {}\n  edges       {}\n  cost        {}\n",
+                        model.name, find_key("plate.model")->fallback == model.name ? " (default)" : "", model.doc,
+                        model.resolves, model.leaves_out, model.edges, cost_of(model));
   return text +
          "choose with plate.model = \"NAME\" or --structure NAME; cost: processor time of the windows of dry_150mm "
          "--level "

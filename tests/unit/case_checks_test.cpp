@@ -70,6 +70,29 @@ TEST(SceneChecks, EachImpossibleScene_IsOneErrorAtTheValueThatMadeItSo) {
     EXPECT_THAT(error_of(mistake.key, mistake.value), HasSubstr(mistake.message)) << mistake.key;
 }
 
+TEST(SceneChecks, WhatAModelCannotStandFor_IsOneErrorWithTheChoices) {
+  struct {
+    const char *model, *key, *value, *message;
+  } const mistakes[] = {
+      {"single_dof", "plate.edges", "symmetry",
+       "single_dof does not know edges = \"symmetry\"\n  edges with this model: "},
+      {"single_dof", "plate.edges", "free", "edges with this model: clamped|pinned; `standoff models`"},
+      {"plate_shell", "plate.edges", "bolted", "plate_shell does not know edges = \"bolted\""},
+      {"single_dof", "plate.size", "[406 mm, 400 mm, 3.4 mm]",
+       "single_dof is a square plate, not one of 406 mm by 400 mm"},
+      {"plate_shell", "plate.elements", "[10, 10, 2]", "a shell has one element through the thickness, not 2"}};
+  for (const auto& mistake : mistakes) {
+    CaseFolder folder;
+    folder.write("case.toml", sound_case(dry_shell));
+    const CaseRead result = folder.read(
+        "case.toml",
+        with_set({{"plate.model", mistake.model}, {"plate.opening", "300 mm"}, {mistake.key, mistake.value}}));
+    ASSERT_EQ(result.errors.size(), 1u) << all_errors(result);
+    EXPECT_THAT(result.errors[0], StartsWith(std::string("--set ") + mistake.key));
+    EXPECT_THAT(result.errors[0], HasSubstr(mistake.message));
+  }
+}
+
 TEST(SceneChecks, ScenesOnTheBound_AreLegal) {
   const std::pair<const char*, const char*> legal[] = {
       {"run.stand_off", "76.2 mm"},  // touching

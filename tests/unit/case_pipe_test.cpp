@@ -23,7 +23,7 @@ TEST(PipeChecks, EachImpossiblePipe_IsOneErrorAtTheValueThatMadeItSo) {
   } mistakes[] = {
       {"plate.elements", "[6, 12, 1]", "6 elements round the pipe do not fill four equal quarters"},
       {"plate.elements", "[4, 13, 2]", "13 elements in a layer of the quarter do not fill fours"},
-      {"plate.edges", "pinned", "the ends of a pipe are not held by edges = \"pinned\""},
+      {"plate.edges", "pinned", "pipe_hex64 does not know edges = \"pinned\""},
       {"plate.pipe.wall", "-1 mm", "out of range; wall > 0 m"},
       {"plate.pipe.length", "0 mm", "out of range; length > 0 m"},
       {"charge.radius", "13 mm", "the charge does not fit into the pipe: radius 13 mm against inner_diameter 25.43 mm"},

@@ -136,12 +136,5 @@ TEST(SingleDof, HardeningRateAndHeat_ChangeTheDeflectionAsTheyMust) {
   EXPECT_GT(heated, hardening) << "m";
 }
 
-TEST(SingleDof, OblongPlateOrFreeEdges_AreRefused) {
-  CaseSpec oblong = plain_case(410e6), free = plain_case(410e6);
-  oblong.plate.size.y = 0.3, free.plate.edges = "free";
-  EXPECT_THROW(SingleDof{oblong}, Stop);
-  EXPECT_THROW(SingleDof{free}, Stop);
-}
-
 }  // namespace
 }  // namespace standoff::structure::testing

@@ -1,21 +1,9 @@
 #include "structure_solver/models/plate_shell/shell_mesh.hpp"
 
-#include "coupling/base/stop.hpp"
 #include "structure_solver/elements/mitc4.hpp"
 
 namespace standoff::structure {
 namespace {
-
-void check(const PlateMeshOptions& o) {
-  if (o.edges != "clamped" && o.edges != "pinned" && o.edges != "free" && o.edges != "symmetry")
-    throw Stop(ExitCode::bad_case,
-               "plate.edges = \"" + o.edges + "\" does not exist for shell elements\n" +
-                   "  edges here: clamped, pinned, free, symmetry; plate.model = \"plate_hex64\" knows more");
-  if (o.elements[2] != 1)
-    throw Stop(ExitCode::bad_case, "plate.elements: a shell has one element through the thickness, not " +
-                                       std::to_string(o.elements[2]) +
-                                       "\n  its five layers are inside; give 1, or plate.model = \"plate_hex64\"");
-}
 
 void hold_node(ShellMesh& mesh, int i, int j) {
   const bool whole = !mesh.options.quarter;
@@ -55,7 +43,6 @@ ShellMesh make_shell_mesh(const PlateMeshOptions& options) {
   PlateMeshOptions solid = options;
   solid.edges = "free", solid.elements[2] = 1;
   const PlateMesh box = make_plate_mesh(solid);  // checks size, elements and density
-  check(options);
   ShellMesh mesh;
   mesh.options = options;
   mesh.elements = {box.elements[0], box.elements[1]};

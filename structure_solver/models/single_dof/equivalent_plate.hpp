@@ -19,7 +19,6 @@
 // Limits: in-plane stretch is the same everywhere, so strains are means and the shape of the load counts only through
 // int phi; yield is square (M and N apart), an upper bound of strength; no travelling hinge, no wave; the first
 // frequency is 10.5 % high (clamped), as k is exact for the static deflection and phi is not the mode.
-#include "coupling/base/stop.hpp"
 #include "coupling/case/case_spec.hpp"
 
 namespace standoff::structure {
@@ -45,10 +44,6 @@ struct EquivalentPlate {
 inline EquivalentPlate equivalent_plate(const CaseSpec& spec) {
   const PlateSpec& p = spec.plate;
   const MaterialSpec& m = p.material;
-  if (p.size.x != p.size.y || (p.edges != "clamped" && p.edges != "pinned"))
-    throw Stop(ExitCode::bad_case,
-               "plate.model = \"single_dof\" is a square plate with clamped or pinned edges\n"
-               "  make plate.size square and plate.edges \"clamped\" or \"pinned\", or choose plate_hex64");
   const bool clamped = p.edges == "clamped";
   const double width = p.size.x, h = p.size.z, part = 1.0 / spec.copies();
   const double rigidity = m.youngs_modulus * h * h * h / (12.0 * (1.0 - m.poissons_ratio * m.poissons_ratio));
