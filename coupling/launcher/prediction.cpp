@@ -220,7 +220,7 @@ EffectPrice price_of(const Effect& effect, const EffectDecision& decision, const
   EffectPrice price;
   price.name = decision.name, price.on = decision.on, price.reason = decision.reason;
   const EffectCost cost = effect.cost != nullptr ? effect.cost(spec, work) : EffectCost{};
-  price.memory = cost.memory;
+  price.memory = cost.memory, price.more_seconds = cost.more_seconds;
   if (decision.on) price.bytes = cost.bytes, price.seconds = std::max(0.0, cost.seconds);
   const bool switched = effect.switched_by != nullptr && cost.seconds > 0.0;
   const bool can_turn = decision.on ? !effect.inherent : effect.find(spec).possible || switched;
@@ -263,10 +263,6 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
   plan_gas(spec, constants, p);
   plan_sand(spec, constants, p);
   plan_air(spec, constants, p);
-  choose_threads(spec, cores, p);
-  if (particle_threads > 0) p.particle_threads = particle_threads;
-  if (structure_threads > 0) p.structure_threads = structure_threads;
-  add_wall(spec, cores, constants, p);
   const SceneWork work = work_of(spec, constants, p);
   for (const EffectDecision& decision : spec.effects)
     for (const Effect& effect : effect_rules())
@@ -274,7 +270,12 @@ CostPrediction predict_cost(const CaseSpec& spec, int cores, int particle_thread
   for (const EffectPrice& price : p.effects) {
     if (price.memory == MemoryOf::structure) p.structure_bytes += price.bytes;
     if (price.memory == MemoryOf::particles) p.particle_bytes += price.bytes;
+    if (price.more_seconds) p.sand_s += price.seconds;
   }
+  choose_threads(spec, cores, p);
+  if (particle_threads > 0) p.particle_threads = particle_threads;
+  if (structure_threads > 0) p.structure_threads = structure_threads;
+  add_wall(spec, cores, constants, p);
   return p;
 }
 

@@ -26,6 +26,7 @@ struct EffectPrice {
   std::string reason;
   double bytes = 0.0, seconds = 0.0;  // of one core
   MemoryOf memory = MemoryOf::counted;
+  bool more_seconds = false;             // sand_s grows by these
   std::optional<EffectCost> overriding;  // what turning it round adds; nothing: it cannot be turned round
   std::string without;                   // what a result misses without it
   std::string switched_by;               // the key that does it, if not [effects]

@@ -87,13 +87,28 @@ TEST(Prediction, EffectsInTheParticles_CostInProportionToThem) {
     EXPECT_LT(quarter.effects[k].seconds, 0.1 * (quarter.gas_s + quarter.sand_s)) << quarter.effects[k].name;
     EXPECT_DOUBLE_EQ(full.effects[k].seconds, 4.0 * quarter.effects[k].seconds) << quarter.effects[k].name;
   }
-  const double turning = full.particle_bytes;
   spec.effects[2].on = false;
   const CostPrediction off = predict_cost(spec, 2);
-  EXPECT_DOUBLE_EQ(turning - off.particle_bytes, full.effects[2].bytes);
   EXPECT_EQ(off.effects[2].seconds, 0.0);
   ASSERT_TRUE(off.effects[2].overriding.has_value());
   EXPECT_DOUBLE_EQ(off.effects[2].overriding->seconds, full.effects[2].seconds) << "what turning it on would cost";
+}
+
+// The price of grains that move and do not turn is measured without turning: with it their seconds and bytes grow by
+// the price of the effect, and so does the clock on the wall of one core. A measured price: 10 ns a grain and step.
+TEST(Prediction, GrainsThatTurn_TakeTheirPriceMoreThanThoseThatDoNot) {
+  CaseSpec spec = sand_case(10000, 50000, 10);
+  spec.effects = {{"grain_rotation", true, "", false}};
+  const CostPrediction turning = predict_cost(spec, 1);
+  spec.effects[0].on = false;
+  const CostPrediction off = predict_cost(spec, 1);
+  EXPECT_DOUBLE_EQ(turning.effects[0].seconds, off.sand_steps * off.simulated(50000) * 10e-9);
+  const double rounding =
+      1e-12 * turning.wall_s;  // sums of fewer than ten terms round to 1e-15 of them; a thousand times that
+  EXPECT_NEAR(turning.sand_s - off.sand_s, turning.effects[0].seconds, rounding);
+  EXPECT_NEAR(turning.core_s() - off.core_s(), turning.effects[0].seconds, rounding);
+  EXPECT_NEAR(turning.wall_s - off.wall_s, turning.effects[0].seconds, rounding);
+  EXPECT_DOUBLE_EQ(turning.particle_bytes - off.particle_bytes, turning.effects[0].bytes);
 }
 
 TEST(Prediction, SceneWithoutSand_HasNoSandRow) {

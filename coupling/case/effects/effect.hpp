@@ -31,6 +31,7 @@ enum class MemoryOf { counted, particles, structure };
 struct EffectCost {
   double bytes = 0.0, seconds = 0.0;  // of one core; what the effect takes while it is on
   MemoryOf memory = MemoryOf::counted;
+  bool more_seconds = false;  // the sand's seconds grow by these; else they, or the other rows of the price, hold them
 };
 
 struct Effect {

@@ -26,7 +26,8 @@ EffectCost cost(const CaseSpec&, const SceneWork& work) {
   constexpr double bytes = 6.0 * sizeof(double) + 32.0;  // spin, torque; what it turned in the step
   return {.bytes = work.grains * bytes,
           .seconds = work.sand_steps * work.grains * turning_s,
-          .memory = MemoryOf::particles};
+          .memory = MemoryOf::particles,
+          .more_seconds = true};
 }
 
 }  // namespace
