@@ -1,11 +1,10 @@
 #include "particle_solver/app/particle_books.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "coupling/base/state_hash.hpp"
 #include "particle_solver/app/particle_guard.hpp"
+#include "particle_solver/scene/sand_front.hpp"
 
 namespace standoff::particles {
 
@@ -24,18 +23,6 @@ void ParticleBooks::observe(double time) {
 void ParticleBooks::guard(double time, double window) const {
   guard_surface(loop_.boundary_totals(), loop_.totals().carried, scene_.charge_particles + scene_.sand_particles,
                 window, time);
-}
-
-double ParticleBooks::front_radius() const {
-  std::vector<double> radii;
-  radii.reserve(scene_.sand.size());
-  for (const Vec3& x : scene_.sand.position) radii.push_back(norm(x - scene_.centre));
-  // 99 % of the mass; what has left the domain is beyond every radius inside.
-  const auto all = static_cast<double>(scene_.sand_particles);
-  const auto index = static_cast<std::size_t>(std::ceil(0.99 * all)) - 1;
-  if (index >= radii.size()) return std::numeric_limits<double>::quiet_NaN();
-  std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(index), radii.end());
-  return radii[index];
 }
 
 NamedValues ParticleBooks::sample(double time) {
@@ -59,7 +46,7 @@ NamedValues ParticleBooks::sample(double time) {
                            {"sand_kinetic_J", full * energy.sand_kinetic},
                            {"sand_elastic_J", full * energy.sand_elastic},
                            {"contact_loss_J", full * energy.contact_loss},
-                           {"sand_front_radius_m", front_radius()}});
+                           {"sand_front_radius_m", sand_front_radius(scene_.sand, scene_.centre)}});
     if (spec_.effect("friction")) row.emplace_back("friction_loss_J", full * energy.friction_loss);
     if (spec_.effect("damping")) row.emplace_back("damping_loss_J", full * energy.damping_loss);
     if (spec_.effect("grain_rotation")) row.emplace_back("sand_rotation_J", full * energy.sand_rotation);

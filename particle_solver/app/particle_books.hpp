@@ -34,8 +34,6 @@ class ParticleBooks {
   }
 
  private:
-  double front_radius() const;
-
   const CaseSpec& spec_;
   const Scene& scene_;
   const TimeLoop& loop_;

@@ -6,6 +6,7 @@
 
 #include "coupling/base/counter_random.hpp"
 #include "particle_solver/kernels/free_flight.hpp"
+#include "particle_solver/scene/sand_front.hpp"
 #include "particle_solver/step/time_loop.hpp"
 #include "tests/unit/case_folder.hpp"
 #include "tests/unit/particles_surface_builders.hpp"
@@ -57,7 +58,7 @@ CaseSpec sand_ball(const char* drop) {
 }
 
 struct Outcome {
-  double impulse, energy_error, momentum_error;
+  double impulse, energy_error, momentum_error, front;
   long left;
   bool has_row;
 };
@@ -76,9 +77,12 @@ Outcome fly_apart(const char* drop) {
   for (int k = 0; k < 300; ++k) loop.advance(2e-6 * k, 2e-6), ledger.observe(loop.energy());
   const auto& rows = loop.timers().rows();
   const bool row = std::any_of(rows.begin(), rows.end(), [](const auto& r) { return r.name == "drop_outgoing"; });
-  return {scene.sheet.total_impulse().z, ledger.energy_error(),
+  return {scene.sheet.total_impulse().z,
+          ledger.energy_error(),
           norm(loop.momentum_everywhere() - ledger.initial_momentum()) / loop.impulse_scale(),
-          static_cast<long>(scene.sand.size()), row};
+          sand_front_radius(scene.sand, scene.centre),
+          static_cast<long>(scene.sand.size()),
+          row};
 }
 
 TEST(DropOutgoing_OfSandThatFliesApart, ChangesNothingOnThePlate_AndKeepsTheBooks) {
@@ -88,6 +92,8 @@ TEST(DropOutgoing_OfSandThatFliesApart, ChangesNothingOnThePlate_AndKeepsTheBook
   EXPECT_NEAR(on.impulse, off.impulse, 1e-12 * std::abs(off.impulse));
   EXPECT_LT(on.energy_error, 1.01 * off.energy_error) << "of velocity Verlet, in contacts that both runs have";
   EXPECT_LT(on.momentum_error, 1e-11);
+  EXPECT_GT(on.front, 0.0) << "m: of what is left";
+  EXPECT_LT(on.front, off.front) << "m: what is taken out flies ahead";
   EXPECT_TRUE(on.has_row);
   EXPECT_FALSE(off.has_row);
 }

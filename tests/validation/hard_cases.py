@@ -29,7 +29,7 @@ HARD = ROOT / "cases/hard"
 # Overlap, where the hard core is on: it begins half a radius deep, and a step of at most half a radius each way leads one deeper.
 BOUNDS = {"energy_error_particles": 1e-2, "energy_error_structure": 1e-2, "momentum_error": 1e-9, "slipped_below_the_surface": 0}
 CORE_BOUND = {"max_overlap_over_radius": 1.5}
-MAY_BE_EMPTY = {"sand_front_radius_m"}  # no such radius once more than 1 % of the sand has left
+MAY_BE_EMPTY = {"sand_front_radius_m"}  # no such radius once all of the sand has left
 UNITS = {"us": 1e-6, "ms": 1e-3}
 failures = []
 
