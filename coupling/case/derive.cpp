@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "coupling/case/effects/registry.hpp"
 #include "coupling/case/presets.hpp"
 #include "coupling/case/structural_models.hpp"
 
@@ -17,7 +18,10 @@ class Completion {
 
   void run_cell() {
     for (const std::string& section : section_names())
-      if (section != "case" && section != "soil" && section != "cell" && section != "run") s_.forget_section(section);
+      if (section != "case" && section != "soil" && section != "cell" && section != "run" && section != "effects")
+        s_.forget_section(section);
+    for (const std::string& name : effect_names())
+      if (!is_of_the_soil(name)) s_.forget("effects." + name);
     cell_only_ = true;
     const std::string soil = s_.word("soil.kind");
     has_soil_ = soil == "dry" || soil == "wet";
@@ -140,6 +144,10 @@ class Completion {
     }
   }
 
+  /// Effects of grains on each other: a cell of them has these, too.
+  static bool is_of_the_soil(const std::string& effect) {
+    return effect == "friction" || effect == "grain_rotation" || effect == "damping" || effect == "radius_spread";
+  }
   static bool belongs_to_a_cell(const std::string& path) {
     return path.starts_with("soil.") || path.starts_with("cell.") || path == "run.seed";
   }

@@ -37,13 +37,13 @@ OrderedJson read_result(const std::string& folder) {
 std::string facts_text(const OrderedJson& r) {
   const auto mean = [&](const char* key) { return r[key]["mean"].get<double>(); };
   return fmt::format(
-      "{} sand: {} cells of {} grains, k0 {:.4g} GN/m, friction {:.3g}, damping {:.3g}\n"
+      "{} sand: {} cells of {} grains, k0 {:.4g} GN/m, friction {:.3g}, damping {:.3g}{}\n"
       "  packed to {:.3g}, {:.2f} contacts a grain, overlap at most {:.2g} % of a diameter (mean over cells)\n"
       "  residual stress {:.3g} MPa axial, {:.3g} MPa lateral: subtracted below\n",
       r["kind"].get<std::string>(), r["cells"].get<long>(), r["grains"].get<long>(),
       1e-9 * r["stiffness_N_per_m"].get<double>(), r["friction"].get<double>(), r["damping"].get<double>(),
-      r["packing"].get<double>(), mean("coordination"), 100.0 * mean("overlap_over_diameter"),
-      1e-6 * mean("residual_axial_Pa"), 1e-6 * mean("residual_lateral_Pa"));
+      r.value("grain_rotation", false) ? ", grains turn" : "", r["packing"].get<double>(), mean("coordination"),
+      100.0 * mean("overlap_over_diameter"), 1e-6 * mean("residual_axial_Pa"), 1e-6 * mean("residual_lateral_Pa"));
 }
 
 /// At most ten rows, the last one among them.

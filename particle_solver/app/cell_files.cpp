@@ -63,6 +63,7 @@ std::string cell_json(const CaseSpec& spec, const CellStudy& study) {
   nlohmann::ordered_json j;
   j["case"] = spec.name, j["kind"] = spec.soil.kind == SoilKind::wet ? "wet" : "dry";
   j["stiffness_N_per_m"] = spec.soil.stiffness, j["friction"] = spec.soil.friction, j["damping"] = spec.soil.damping;
+  if (spec.effect("grain_rotation")) j["grain_rotation"] = true;
   j["packing"] = study.packing, j["radius_spread"] = spec.soil.radius_spread;
   j["grains"] = spec.cell.grains, j["cells"] = spec.cell.cells, j["first_seed"] = spec.run.seed;
   j["steps"] = spec.cell.steps, j["mean_radius_m"] = study.mean_radius;

@@ -58,7 +58,8 @@ int cell_program(int argc, char** argv) {
     const CellCommand command = read_command(argc, argv);
     if (command.only_help) return;
     const CaseSpec spec = read_cell_case(command.case_file);
-    const CellStudy study = study_cells(spec.soil, spec.cell, spec.run.seed, command.threads);
+    const CellStudy study =
+        study_cells(spec.soil, spec.cell, spec.run.seed, command.threads, spec.effect("grain_rotation"));
     write_atomically(command.out + "/stress_strain.csv", stress_strain_csv(study, spec.soil.stiffness));
     write_atomically(command.out + "/cells.csv", cells_csv(study));
     write_atomically(command.out + "/cell.json", cell_json(spec, study));

@@ -5,6 +5,8 @@
 // The box shortens along z at a constant rate of engineering strain, lateral lengths stay; grains follow affinely and
 // keep what they move beyond that. Viscous drag on that motion, v <- v (1 - drag dt), keeps it quasi-static:
 //   inertia: stress errs by about rho (strain rate * L)^2; with 20000 steps to 10 % strain that is 1e-7 of k0/L0.
+// Where grains turn, spins have the same drag. The step, 0.2 sqrt(m/k), is then within the bound of
+// kernels/grain_rotation.hpp up to 14 contacts on a grain.
 // Stress along an axis = sum f_a d_a / V over contacts (virial), V the present volume; true (Cauchy) pressure.
 //
 //   strain = 1 - length/initial length;  secant bulk modulus = change of (axial + 2 lateral)/3 over strain
@@ -23,6 +25,7 @@ struct CompressionOptions {
   int steps = 20000;     // in all
   double drag = 0.1;     // of sqrt(k/m)
   int threads = 1;
+  bool turning = false;  // friction turns the grains
 };
 
 struct CompressionPoint {

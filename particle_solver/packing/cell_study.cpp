@@ -29,7 +29,7 @@ std::vector<CompressionPoint> mean_of(const std::vector<CellSample>& samples) {
 
 }  // namespace
 
-CellStudy study_cells(const SoilSpec& soil, const CellSpec& cell, std::uint64_t seed, int threads) {
+CellStudy study_cells(const SoilSpec& soil, const CellSpec& cell, std::uint64_t seed, int threads, bool turning) {
   CellStudy study;
   std::vector<const PackedCell*> packed;
   for (long n = 0; n < cell.cells; ++n)
@@ -38,7 +38,8 @@ CellStudy study_cells(const SoilSpec& soil, const CellSpec& cell, std::uint64_t 
   study.packing = soil.packing, study.mean_radius = packed.front()->mean_radius;
   study.samples.resize(packed.size());
   const GrainLaw law = grain_law(soil, 1.0);
-  const CompressionOptions options{cell.strain, static_cast<int>(cell.points), static_cast<int>(cell.steps), 0.1, 1};
+  const CompressionOptions options{cell.strain, static_cast<int>(cell.points), static_cast<int>(cell.steps), 0.1, 1,
+                                   turning};
   const auto count = static_cast<int>(packed.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (int n = 0; n < count; ++n) {

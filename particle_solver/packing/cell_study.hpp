@@ -28,8 +28,10 @@ struct CellStudy {
   std::vector<CompressionPoint> mean;  // over samples
 };
 
-/// Seeds `seed`, seed + 1, ...; samples are worked on side by side, and do not depend on the number of threads.
-CellStudy study_cells(const SoilSpec& soil, const CellSpec& cell, std::uint64_t seed, int threads);
+/// Seeds `seed`, seed + 1, ...; `turning`: friction turns the grains while they are compressed. Samples are worked on
+/// side by side, and do not depend on the number of threads.
+CellStudy study_cells(const SoilSpec& soil, const CellSpec& cell, std::uint64_t seed, int threads,
+                      bool turning = false);
 
 /// Standard deviation over samples of value(point n); 0 for a single sample.
 template <class Value>

@@ -213,7 +213,7 @@ def effects(copy):
 
 def cell(*copies):
     tests = [json.loads(copy.read_text()) for copy in copies]
-    names = [f"k0 {t['stiffness_N_per_m'] / 1e9:g} GN/m, friction {t['friction']:g}, damping {t['damping']:g}" for t in tests]
+    names = [f"k0 {t['stiffness_N_per_m'] / 1e9:g} GN/m, friction {t['friction']:g}, damping {t['damping']:g}{', grains turn' * t.get('grain_rotation', False)}" for t in tests]
     packed = [["cells", "packing", "contacts a grain", "largest overlap, % of a diameter", "residual axial / lateral MPa"]]
     with_spread = lambda t, key, factor, form: f"{factor * t[key]['mean']:{form}} ± {factor * t[key]['deviation']:{form}}"
     for test, name in zip(tests, names):

@@ -66,6 +66,22 @@ TEST(CellCase, OfAScene_KeepsTheSoilAndForgetsTheRest) {
   EXPECT_THAT(read.resolved, testing::Not(HasSubstr("[plate")));
 }
 
+// Whether grains rub and turn is a matter of the soil; what melts a plate is not.
+TEST(CellCase, OfAScene_KeepsTheEffectsOfItsSoil) {
+  CaseFolder folder;
+  const std::string soil = "[soil]\nkind = \"dry\"\ninner_radius = \"30 mm\"\nouter_radius = \"76.2 mm\"\n";
+  folder.write("case.toml", sound_case(soil + "[effects]\nheating = \"on\"\ngrain_rotation = \"on\"\n"));
+  const CaseRead turning = folder.read("case.toml", for_purpose(CasePurpose::cell));
+  ASSERT_TRUE(turning.errors.empty()) << all_errors(turning);
+  EXPECT_TRUE(turning.spec.effect("grain_rotation"));
+  folder.write("case.resolved.toml", turning.resolved);
+  EXPECT_TRUE(folder.read("case.resolved.toml", for_purpose(CasePurpose::cell)).spec.effect("grain_rotation"));
+  folder.write("case.toml", sound_case(soil + "[effects]\nfriction = \"off\"\n"));
+  const CaseRead smooth = folder.read("case.toml", for_purpose(CasePurpose::cell));
+  EXPECT_EQ(smooth.spec.soil.friction, 0.0);
+  EXPECT_FALSE(smooth.spec.effect("grain_rotation"));
+}
+
 TEST(CellCase, WithoutSand_IsAMistake) {
   CaseFolder folder;
   folder.write("case.toml", sound_case());
