@@ -1,6 +1,7 @@
 // What an effect costs is taken seed by seed: what the seeds have in common drops out. By hand; tolerances are
 // rounding.
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,19 @@ TEST(EffectCosts, Table_NamesWhatWasTurnedAndHow) {
   EXPECT_NE(text.find("friction off"), std::string::npos) << text;
   EXPECT_NE(text.find("-11.00 ± 1.00 s"), std::string::npos) << text;
   EXPECT_NE(text.find("+1.00 ± 0.00 mm"), std::string::npos) << text;
+}
+
+/// What is off is priced by turning it on, the air by its own key.
+TEST(EffectCosts, OfTheDryCase_TurnOnWhatIsOffAndOffWhatIsOn) {
+  CostOptions options;
+  options.case_path = std::string(STANDOFF_SOURCE_DIR) + "/cases/borvik_2011/dry_150mm";
+  std::map<std::string, EffectVariant> found;
+  for (const EffectVariant& variant : effect_variants(options, "coarse")) found[variant.effect] = variant;
+  ASSERT_TRUE(found.contains("grain_rotation") && found.contains("air") && found.contains("friction"));
+  EXPECT_TRUE(found["grain_rotation"].on && found["air"].on);
+  EXPECT_FALSE(found["friction"].on);
+  EXPECT_EQ(found["grain_rotation"].set.first, "effects.grain_rotation");
+  EXPECT_EQ(found["air"].set.first, "air.mode");
 }
 
 }  // namespace
