@@ -55,6 +55,11 @@ std::vector<double> effective_widths(const LineBasis& basis, int elements, doubl
   return result;
 }
 
+/// Share of the loaded face's own layer of nodes in the mass through the thickness.
+double face_share(const PlateMesh& mesh) {
+  return node_widths(mesh.basis(), mesh.elements[2], mesh.edge.z).back() / mesh.options.size.z;
+}
+
 /// Which element nodes along an axis are held against the load: `at(i)` is the node index in the mesh.
 template <class At>
 std::vector<bool> held_line(const PlateMesh& mesh, int count, const At& at) {
@@ -73,7 +78,7 @@ std::vector<double> surface_inertia(const PlateMesh& mesh, double wave_speed, do
   const std::vector<double> along_x = effective_widths(mesh.basis(), mesh.elements[0], mesh.edge.x, held_x);
   const std::vector<double> along_y = effective_widths(mesh.basis(), mesh.elements[1], mesh.edge.y, held_y);
   const double there_and_back = 2.0 * mesh.options.size.z / wave_speed;
-  const double answering = std::min(1.0, answer_time / there_and_back);
+  const double answering = std::clamp(answer_time / there_and_back, face_share(mesh), 1.0);
   const double areal = mesh.options.density * mesh.options.size.z * answering;
   std::vector<double> mass;
   for (const double y : along_y)

@@ -9,7 +9,8 @@
 // On a regular plate A and C are products of one matrix along x and one along y, so m_a = rho h l_x l_y with effective
 // widths l. M is taken through the whole thickness, which answers as one column once a wave has gone through it and
 // back; over a shorter time T < 2 h / c the column answers like a half space, dx = F T / (rho c), which is lighter by T
-// c / (2 h). A clamped node does not answer: its mass is the tributary one times `fixed_factor`. Tributary masses
+// c / (2 h), but never lighter than the layer of nodes of the loaded face: that is what the mesh answers with at once.
+// A clamped node does not answer: its mass is the tributary one times `fixed_factor`. Tributary masses
 // instead of these leave the work across the interface short by some 10 % with coarse particles.
 #include <vector>
 

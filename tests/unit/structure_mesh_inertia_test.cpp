@@ -67,6 +67,21 @@ TEST(SurfaceInertia, AnswerShorterThanTheThicknessWave_IsLighterByTheirRatio) {
   for (std::size_t a = 0; a < whole.size(); ++a) EXPECT_NEAR(half[a] / whole[a], 0.5, 1e-12) << "node " << a;
 }
 
+TEST(SurfaceInertia, AnswerAtOnce_IsThatOfTheNodesOfTheLoadedFace) {
+  for (const int layers : {1, 3}) {
+    const PlateMesh mesh = make_plate_mesh({{0.406, 0.406, 0.0034}, {6, 4, layers}, false, "free", 8060.0});
+    double face = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < mesh.node_count(); ++i) all += mesh.mass[i];
+    for (int j = 0; j < mesh.nodes[1]; ++j)
+      for (int i = 0; i < mesh.nodes[0]; ++i)
+        face += mesh.mass[static_cast<std::size_t>(mesh.node(i, j, mesh.nodes[2] - 1))];
+    const std::vector<double> whole = surface_inertia(mesh, wave_speed, long_time);
+    const std::vector<double> at_once = surface_inertia(mesh, wave_speed, 1e-12);
+    for (std::size_t a = 0; a < whole.size(); ++a)
+      EXPECT_NEAR(at_once[a] / whole[a], face / all, 1e-12) << "node " << a;
+  }
+}
+
 TEST(SurfaceInertia, ClampedEdge_HardlyMoves) {
   const PlateMesh mesh = make_plate_mesh({{0.406, 0.406, 0.0034}, {4, 4, 1}, true, "clamped", 8060.0});
   const std::vector<double> mass = surface_inertia(mesh, wave_speed, long_time);
