@@ -166,9 +166,9 @@ void Play::advance(std::int64_t k) {
     if (payload.fields.size() != (is_structure() ? 2u : 1u))
       throw ProtocolError(fmt::format("{} fields", payload.fields.size()));
     if (is_structure())
-      motion = motion_from(payload, mesh.position.size());
+      take_motion(payload, mesh.position.size(), motion);
     else
-      load = load_from(payload, mesh.position.size());
+      take_load(payload, mesh.position.size(), load);
   } catch (const ProtocolError& error) {
     throw RuleBroken(fmt::format("ADVANCE of window {}: {}", k, error.what()));
   }

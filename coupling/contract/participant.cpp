@@ -35,6 +35,7 @@ struct Participant::Impl {
   Link link;
   std::string digest;
   std::vector<Vec3> rest;  // surface nodes at rest
+  Grant grant;
   std::int64_t window = -1;
   bool computing = false, ended = false, finished = false;
   Stopwatch since_grant;
@@ -162,10 +163,10 @@ void Participant::throw_longer_state() {
              "the saved state does not fit: it was written by another version of this program");
 }
 
-std::optional<Grant> Participant::next() {
+const Grant* Participant::next() {
   Impl& my = *impl_;
   if (my.computing) throw std::logic_error(fmt::format("next() before advance() of window {}", my.window));
-  if (my.ended) return std::nullopt;
+  if (my.ended) return nullptr;
   const std::initializer_list<std::size_t> kinds = {kind<message::Grant>(), kind<message::StopWindows>(),
                                                     kind<message::Checkpoint>()};
   Parcel parcel = my.await(kinds);
@@ -178,9 +179,9 @@ std::optional<Grant> Participant::next() {
   if (granted == nullptr) {
     my.ended = true;
     my.link.set_between_windows(false);
-    return std::nullopt;
+    return nullptr;
   }
-  Grant grant;
+  Grant& grant = my.grant;
   grant.window = my.window = granted->window;
   grant.begin = granted->begin;
   grant.drain = granted->drain;
@@ -189,14 +190,14 @@ std::optional<Grant> Participant::next() {
     const std::size_t nodes = my.rest.size();
     if (my.options.role == Role::load) {
       if (parcel.payload)
-        grant.motion = motion_from(*parcel.payload, nodes);
+        take_motion(*parcel.payload, nodes, grant.motion);
       else
         grant.motion = {my.rest, std::vector<Vec3>(nodes)};
     } else {
       if (parcel.payload)
-        grant.load = load_from(*parcel.payload, nodes);
+        take_load(*parcel.payload, nodes, grant.load);
       else
-        grant.load.force.resize(nodes);
+        grant.load.force.assign(nodes, Vec3{});
     }
   } catch (const ProtocolError& error) {
     my.refuse(my.options.role == Role::load ? "the motion of the structure" : "the load on the structure", error);
@@ -205,7 +206,7 @@ std::optional<Grant> Participant::next() {
   my.times.exchange += watch.seconds();
   my.since_grant = Stopwatch();
   if (my.trace) my.granted_at = TraceLog::now();
-  return grant;
+  return &grant;
 }
 
 void Participant::request_stop(const std::string& reason) {

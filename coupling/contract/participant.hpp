@@ -5,7 +5,7 @@
 //   link.offer_surface(mesh)            structure      |   mesh = link.receive_surface()      load
 //   link.keep(state)                    optional: what `state` lists is saved at checkpoints, and read by ready()
 //   clock = link.ready(needs)           blocks until every participant is ready; clock.first > 0: a run is continued
-//   while (auto grant = link.next())    blocks; empty when the last window is done
+//   while (auto grant = link.next())    blocks; null when the last window is done
 //     ... compute the window grant->begin .. grant->begin + clock.window ...
 //     link.advance(motion | load, progress)
 //   link.finish(report)                 two-phase goodbye
@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "coupling/base/stage_timer.hpp"
@@ -87,7 +86,8 @@ class Participant {
   /// Stages that a trace shows inside a window; they must outlive the windows.
   void trace_stages(const StageTimers& stages);
   CouplingClock ready(const WindowNeeds& needs);
-  std::optional<Grant> next();
+  /// Null when the last window is done. What it points to is overwritten by the next call.
+  const Grant* next();
   /// Asks that no window beyond those already begun be computed; `next` then ends the loop on both sides.
   void request_stop(const std::string& reason);
 

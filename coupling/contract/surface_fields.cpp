@@ -62,20 +62,16 @@ SurfaceMesh mesh_from(const Payload& payload, std::int64_t nodes, std::int64_t q
   return mesh;
 }
 
-SurfaceMotion motion_from(const Payload& payload, std::size_t nodes) {
-  SurfaceMotion motion;
-  motion.position.resize(nodes);
-  motion.velocity.resize(nodes);
-  payload.take("position", 3, numbers(motion.position));
-  payload.take("velocity", 3, numbers(motion.velocity));
-  return motion;
+void take_motion(const Payload& payload, std::size_t nodes, SurfaceMotion& into) {
+  into.position.resize(nodes);
+  into.velocity.resize(nodes);
+  payload.take("position", 3, numbers(into.position));
+  payload.take("velocity", 3, numbers(into.velocity));
 }
 
-SurfaceLoad load_from(const Payload& payload, std::size_t nodes) {
-  SurfaceLoad load;
-  load.force.resize(nodes);
-  payload.take("force", 3, numbers(load.force));
-  return load;
+void take_load(const Payload& payload, std::size_t nodes, SurfaceLoad& into) {
+  into.force.resize(nodes);
+  payload.take("force", 3, numbers(into.force));
 }
 
 std::string surface_digest(const Payload& mesh_fields) {

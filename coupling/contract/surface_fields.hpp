@@ -13,8 +13,9 @@ Payload to_fields(const SurfaceMotion& motion);
 Payload to_fields(const SurfaceLoad& load);
 
 SurfaceMesh mesh_from(const Payload& payload, std::int64_t nodes, std::int64_t quads);
-SurfaceMotion motion_from(const Payload& payload, std::size_t nodes);
-SurfaceLoad load_from(const Payload& payload, std::size_t nodes);
+/// Into arrays that are kept from window to window: memory that was used before is in the cache and needs no zeros.
+void take_motion(const Payload& payload, std::size_t nodes, SurfaceMotion& into);
+void take_load(const Payload& payload, std::size_t nodes, SurfaceLoad& into);
 
 /// What identifies a surface: the checksums of its three fields.
 std::string surface_digest(const Payload& mesh_fields);

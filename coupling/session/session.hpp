@@ -101,7 +101,8 @@ struct SessionState {
   std::uint32_t epochs = 0;
   CouplingClock clock;  // windows == 0 until everyone is ready
   message::Surface surface;
-  PayloadHandle surface_payload, motion, load;  // latest of each
+  PayloadHandle surface_payload;
+  PayloadHandle motion, load;  // handed in and not granted yet
   std::int64_t bytes = 0;                       // of payload taken in
   double phase_since = 0.0, last_tick = 0.0, last_notice = 0.0, last_checkpoint = 0.0;
   std::int64_t checkpoint = -1;  // windows done at the last one, -1: none

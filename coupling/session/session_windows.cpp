@@ -1,6 +1,7 @@
 // The window clock. Parallel: both compute window k from what the other sent for k - 1, and the structure gets one
 // window more (drain) so that the last load is applied. Serial: the load side first, then the structure with that load.
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,12 +12,13 @@ namespace {
 
 void grant(SessionTurn& turn, Peer& peer, std::int64_t window) {
   peer.window = window;
-  const SessionState& state = turn.state;
+  SessionState& state = turn.state;
   message::Grant body;
   body.window = window;
   body.begin = static_cast<double>(window) * state.clock.window;
   body.drain = window == state.clock.windows;
-  turn.send(peer, body, peer.role == Role::load ? state.motion : state.load);
+  // What was granted is the receiver's alone: its memory is free again while it is still in the cache.
+  turn.send(peer, body, std::exchange(peer.role == Role::load ? state.motion : state.load, nullptr));
   turn.enter(peer, Stage::computing);
 }
 

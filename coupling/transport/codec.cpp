@@ -34,12 +34,13 @@ FieldDescriptor get_field(const wire::Field& from, const zmq::message_t& frame) 
   return field;
 }
 
-wire::Envelope parse_envelope(const zmq::message_t& frame) {
+/// Valid until the next call on this thread: the memory of an envelope is used again.
+const wire::Envelope& parse_envelope(const zmq::message_t& frame) {
   if (frame.size() > most_envelope_bytes)
     throw ProtocolError(fmt::format("an envelope of {} bytes; at most {}", frame.size(), most_envelope_bytes));
   // The reason reaches the user through ProtocolError; protobuf's own lines on stderr would only hide it.
   [[maybe_unused]] static const auto quiet = google::protobuf::SetLogHandler(nullptr);
-  wire::Envelope envelope;
+  static thread_local wire::Envelope envelope;
   if (!envelope.ParseFromArray(frame.data(), static_cast<int>(frame.size())) || envelope.magic() != wire_magic)
     throw ProtocolError("the first frame is not an envelope of this protocol");
   if (envelope.wire_version() != wire_version)
@@ -51,7 +52,8 @@ wire::Envelope parse_envelope(const zmq::message_t& frame) {
 }  // namespace
 
 Frames encode(const Envelope& envelope, const Message& body, const Payload* payload) {
-  wire::Envelope out;
+  static thread_local wire::Envelope out;  // its memory is used again
+  out.Clear();
   out.set_magic(wire_magic);
   out.set_wire_version(wire_version);
   out.set_token(envelope.token);
@@ -63,6 +65,7 @@ Frames encode(const Envelope& envelope, const Message& body, const Payload* payl
   if (payload != nullptr)
     for (const FieldDescriptor& field : payload->fields) put_field(field, *out.add_fields());
   Frames frames;
+  frames.reserve(1 + (payload != nullptr ? payload->frames.size() : 0));
   frames.emplace_back(out.ByteSizeLong());
   out.SerializeToArray(frames[0].data(), static_cast<int>(frames[0].size()));
   if (payload == nullptr) return frames;
@@ -76,7 +79,7 @@ Frames encode(const Envelope& envelope, const Message& body, const Payload* payl
 
 Parcel decode(Frames frames) {
   if (frames.empty()) throw ProtocolError("an empty message");
-  const wire::Envelope in = parse_envelope(frames[0]);
+  const wire::Envelope& in = parse_envelope(frames[0]);
   if (static_cast<std::size_t>(in.fields_size()) != frames.size() - 1)
     throw ProtocolError(
         fmt::format("{} fields announced, {} frames behind the envelope", in.fields_size(), frames.size() - 1));
@@ -85,6 +88,8 @@ Parcel decode(Frames frames) {
   parcel.body = get_body(in);
   if (frames.size() == 1) return parcel;
   auto payload = std::make_shared<Payload>();
+  payload->fields.reserve(frames.size() - 1);
+  payload->frames.reserve(frames.size() - 1);
   for (std::size_t i = 1; i < frames.size(); ++i) {
     payload->fields.push_back(get_field(in.fields(static_cast<int>(i) - 1), frames[i]));
     payload->frames.push_back(std::move(frames[i]));

@@ -89,12 +89,14 @@ std::optional<Frames> Dealer::receive() {
 }
 
 bool Dealer::send(Frames frames, std::chrono::milliseconds timeout) {
-  zmq_pollitem_t item = {impl_->socket.handle(), 0, ZMQ_POLLOUT, 0};
-  if (zmq_poll(&item, 1, timeout.count()) <= 0) return false;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  const auto hand_over = [&](std::size_t i) {
     const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
-    if (zmq_msg_send(frames[i].handle(), impl_->socket.handle(), more | ZMQ_DONTWAIT) < 0) return false;
-  }
+    return zmq_msg_send(frames[i].handle(), impl_->socket.handle(), more | ZMQ_DONTWAIT) >= 0;
+  };
+  zmq_pollitem_t room = {impl_->socket.handle(), 0, ZMQ_POLLOUT, 0};
+  if (!hand_over(0) && (zmq_poll(&room, 1, timeout.count()) <= 0 || !hand_over(0))) return false;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    if (!hand_over(i)) return false;
   return true;
 }
 

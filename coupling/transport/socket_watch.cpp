@@ -4,10 +4,14 @@
 #include <cstring>
 #include <mutex>
 
+#include <poll.h>
+
 namespace standoff {
 namespace {
 
 constexpr int handshake_broken = ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL;
+
+constexpr std::size_t usual_frames = 4;  // address, envelope, two arrays
 
 std::string fresh_name() {
   static std::atomic<unsigned> count{0};
@@ -67,7 +71,9 @@ void send_farewell(zmq::socket_t& socket, const std::string& address) {
 }
 
 std::optional<std::vector<zmq::message_t>> receive_frames(zmq::socket_t& socket) {
-  std::vector<zmq::message_t> frames(1);
+  std::vector<zmq::message_t> frames;
+  frames.reserve(usual_frames);
+  frames.emplace_back();
   if (zmq_msg_recv(frames[0].handle(), socket.handle(), ZMQ_DONTWAIT) < 0) return std::nullopt;
   while (frames.back().more()) {
     frames.emplace_back();
@@ -79,8 +85,10 @@ std::optional<std::vector<zmq::message_t>> receive_frames(zmq::socket_t& socket)
 }
 
 void wait_for_input(zmq::socket_t& socket, zmq::socket_t& events, long milliseconds) {
-  zmq_pollitem_t items[] = {{socket.handle(), 0, ZMQ_POLLIN, 0}, {events.handle(), 0, ZMQ_POLLIN, 0}};
-  zmq_poll(items, 2, milliseconds);
+  // A descriptor tells only of what came since its socket last looked, and sending looks, too.
+  if ((socket.get(zmq::sockopt::events) & ZMQ_POLLIN) != 0) return;
+  pollfd descriptors[] = {{socket.get(zmq::sockopt::fd), POLLIN, 0}, {events.get(zmq::sockopt::fd), POLLIN, 0}};
+  poll(descriptors, 2, static_cast<int>(milliseconds));
 }
 
 }  // namespace standoff

@@ -43,7 +43,8 @@ class SocketWatch {
 
 /// All frames of the next message, or nothing if none is there.
 std::optional<std::vector<zmq::message_t>> receive_frames(zmq::socket_t& socket);
-/// Returns when either socket can be read, on a signal, or after `milliseconds`.
+/// Returns when either socket can be read, on a signal, or after `milliseconds`; `events` must have been read until
+/// empty. zmq_poll does the same with four times the calls of the system.
 void wait_for_input(zmq::socket_t& socket, zmq::socket_t& events, long milliseconds);
 
 }  // namespace standoff

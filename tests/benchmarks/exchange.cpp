@@ -8,7 +8,7 @@
 //
 // Both are measured in turns, so that what else the machine does meets both; the ratio is the median over the turns.
 //
-//   benchmark_exchange [WINDOWS [TURNS]]      prints the table of README.md
+//   benchmark_exchange [WINDOWS [TURNS [TRANSPORT]]]      prints the table of README.md
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -299,11 +299,12 @@ int main(int argc, char** argv) {
       "| transport | nodes | exchange median us | min us | CPU us | raw median us | min us | CPU us | ours / raw |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   std::fflush(stdout);
-  for (const std::size_t nodes : {std::size_t{961}, std::size_t{14641}}) {
-    print_row({"inproc", "inproc://exchange", nodes, windows, {}, {}}, turns);
-    print_row({"ipc", "ipc://" + folder.path() + "/exchange", nodes, windows, {}, {}}, turns);
-    print_row({"tcp", "tcp://127.0.0.1:" + port, nodes, windows, {}, {}}, turns);
-    print_row({"tcp, CURVE", "tcp://127.0.0.1:" + port, nodes, windows, broker, side}, turns);
-  }
+  const std::string only = argc > 3 ? argv[3] : "";
+  for (const std::size_t nodes : {std::size_t{961}, std::size_t{14641}})
+    for (const Place& place : {Place{"inproc", "inproc://exchange", nodes, windows, {}, {}},
+                               Place{"ipc", "ipc://" + folder.path() + "/exchange", nodes, windows, {}, {}},
+                               Place{"tcp", "tcp://127.0.0.1:" + port, nodes, windows, {}, {}},
+                               Place{"tcp, CURVE", "tcp://127.0.0.1:" + port, nodes, windows, broker, side}})
+      if (only.empty() || only == place.name) print_row(place, turns);
   return 0;
 }

@@ -35,8 +35,10 @@ void read_arrays(const Payload& payload) {
   for (const FieldDescriptor& field : payload.fields) {
     if (field.shape.count > static_cast<std::int64_t>(most_nodes)) continue;
     const auto nodes = static_cast<std::size_t>(field.shape.count);
-    try_to([&] { motion_from(payload, nodes); });
-    try_to([&] { load_from(payload, nodes); });
+    SurfaceMotion motion;
+    SurfaceLoad load;
+    try_to([&] { take_motion(payload, nodes, motion); });
+    try_to([&] { take_load(payload, nodes, load); });
   }
 }
 
