@@ -103,7 +103,7 @@ struct SessionState {
   message::Surface surface;
   PayloadHandle surface_payload;
   PayloadHandle motion, load;  // handed in and not granted yet
-  std::int64_t bytes = 0;                       // of payload taken in
+  std::int64_t bytes = 0;      // of payload taken in
   double phase_since = 0.0, last_tick = 0.0, last_notice = 0.0, last_checkpoint = 0.0;
   std::int64_t checkpoint = -1;  // windows done at the last one, -1: none
   std::string stop_reason;       // interrupted: save at the next window's end, then stop

@@ -67,7 +67,7 @@ Frames encode(const Envelope& envelope, const Message& body, const Payload* payl
   Frames frames;
   frames.reserve(1 + (payload != nullptr ? payload->frames.size() : 0));
   frames.emplace_back(out.ByteSizeLong());
-  out.SerializeToArray(frames[0].data(), static_cast<int>(frames[0].size()));
+  out.SerializeWithCachedSizesToArray(frames[0].data<std::uint8_t>());  // the sizes are those just found
   if (payload == nullptr) return frames;
   for (const zmq::message_t& frame : payload->frames) {
     zmq::message_t shared;

@@ -26,6 +26,7 @@ struct Dealer::Impl {
   zmq::socket_t socket{*context, zmq::socket_type::dealer};
   SocketWatch watch{*context, socket};
   bool connected, lost = false, refused = false;
+  bool empty = false;  // the last that was done is a look for a message, and there was none
   int broken_greetings = 0;
 };
 
@@ -53,7 +54,7 @@ Dealer::~Dealer() {
 }
 
 void Dealer::wait(std::chrono::milliseconds timeout) {
-  wait_for_input(impl_->socket, impl_->watch.events(), timeout.count());
+  impl_->watch.wait(timeout.count(), impl_->empty);
 }
 
 void Dealer::look() {
@@ -83,18 +84,25 @@ bool Dealer::refused() const {
 
 std::optional<Frames> Dealer::receive() {
   auto frames = receive_frames(impl_->socket);
+  impl_->empty = !frames;
   if (!frames || !impl_->endpoint.inproc || !is_farewell(*frames)) return frames;
   impl_->lost = true;
   return std::nullopt;
 }
 
 bool Dealer::send(Frames frames, std::chrono::milliseconds timeout) {
+  using std::chrono::steady_clock;
+  impl_->empty = false;
   const auto hand_over = [&](std::size_t i) {
     const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
-    return zmq_msg_send(frames[i].handle(), impl_->socket.handle(), more | ZMQ_DONTWAIT) >= 0;
+    return send_frame(frames[i], impl_->socket, more | ZMQ_DONTWAIT);
   };
-  zmq_pollitem_t room = {impl_->socket.handle(), 0, ZMQ_POLLOUT, 0};
-  if (!hand_over(0) && (zmq_poll(&room, 1, timeout.count()) <= 0 || !hand_over(0))) return false;
+  for (const auto until = steady_clock::now() + timeout; !hand_over(0);) {
+    if (zmq_errno() != EAGAIN) return false;
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
+    zmq_pollitem_t room = {impl_->socket.handle(), 0, ZMQ_POLLOUT, 0};
+    if (left.count() <= 0 || zmq_poll(&room, 1, left.count()) == 0) return false;
+  }
   for (std::size_t i = 1; i < frames.size(); ++i)
     if (!hand_over(i)) return false;
   return true;

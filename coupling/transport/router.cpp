@@ -31,6 +31,7 @@ struct Router::Impl {
   std::optional<KeyGate> gate;
   zmq::socket_t socket{*context, zmq::socket_type::router};
   SocketWatch watch{*context, socket};
+  bool empty = false;                     // the last that was done is a look for a message, and there was none
   std::map<int, std::string> address_of;  // by descriptor
   std::set<std::string> here;             // inproc: who has said something
   std::vector<std::string> has_left;      // inproc: who has said farewell
@@ -63,11 +64,12 @@ std::string Router::endpoint() const {
 }
 
 void Router::wait(std::chrono::milliseconds timeout) {
-  wait_for_input(impl_->socket, impl_->watch.events(), timeout.count());
+  impl_->watch.wait(timeout.count(), impl_->empty);
 }
 
 std::optional<Router::Arrival> Router::receive() {
   auto frames = receive_frames(impl_->socket);
+  impl_->empty = !frames;
   if (!frames) return std::nullopt;
   Arrival arrival;
   arrival.address = (*frames)[0].to_string();
@@ -98,12 +100,13 @@ std::vector<std::string> Router::take_gone() {
 }
 
 Router::Delivery Router::send(const std::string& address, Frames frames) {
+  impl_->empty = false;
   zmq::message_t to(address.data(), address.size());
-  if (zmq_msg_send(to.handle(), impl_->socket.handle(), ZMQ_SNDMORE | ZMQ_DONTWAIT) < 0)
+  if (!send_frame(to, impl_->socket, ZMQ_SNDMORE | ZMQ_DONTWAIT))
     return zmq_errno() == EAGAIN ? Delivery::full : Delivery::gone;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const int more = i + 1 < frames.size() ? ZMQ_SNDMORE : 0;
-    if (zmq_msg_send(frames[i].handle(), impl_->socket.handle(), more | ZMQ_DONTWAIT) < 0) return Delivery::gone;
+    if (!send_frame(frames[i], impl_->socket, more | ZMQ_DONTWAIT)) return Delivery::gone;
   }
   return Delivery::sent;
 }

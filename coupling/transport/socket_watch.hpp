@@ -34,17 +34,22 @@ class SocketWatch {
   SocketWatch& operator=(const SocketWatch&) = delete;
 
   std::optional<ConnectionEvent> next();
-  zmq::socket_t& events() { return events_; }
+  /// Returns when there is a message or an event, on a signal, or after `milliseconds`. Whoever has just found no
+  /// message says so: `empty`.
+  void wait(long milliseconds, bool empty);
 
  private:
   zmq::socket_t& socket_;
   zmq::socket_t events_;
+  bool empty_ = false;  // the last look found no event
+  bool quiet_ = false;  // the wait just ended, not by an event: that need not be asked again
 };
 
+/// Hands a frame over; a signal in the middle is no failure. False: zmq_errno says why.
+bool send_frame(zmq::message_t& frame, zmq::socket_t& socket, int flags);
 /// All frames of the next message, or nothing if none is there.
 std::optional<std::vector<zmq::message_t>> receive_frames(zmq::socket_t& socket);
-/// Returns when either socket can be read, on a signal, or after `milliseconds`; `events` must have been read until
-/// empty. zmq_poll does the same with four times the calls of the system.
-void wait_for_input(zmq::socket_t& socket, zmq::socket_t& events, long milliseconds);
+/// Returns when either socket can be read, on a signal, or after `milliseconds`.
+void wait_for_input(zmq::socket_t& one, zmq::socket_t& other, long milliseconds);
 
 }  // namespace standoff
