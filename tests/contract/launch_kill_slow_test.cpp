@@ -8,10 +8,11 @@ namespace {
 
 class RealRun : public LauncherStage, public ::testing::WithParamInterface<const char*> {
  protected:
+  /// A run of minutes: nothing reaches the plate before its end, which is so coarse that a hit would end the run.
   void start_and_wait_for_rows() {
     real_programs_ = true;
     start({"run", "case.toml", "--out", "run", "--set", "run.until=100 ms", "--set", "coupling.window=step", "--set",
-           "levels.coarse.charge=2000", "--set", "run.stand_off=600 mm"});
+           "levels.coarse.charge=2000", "--set", "run.stand_off=600 m"});
     ASSERT_TRUE(wait_until([&] { return rows() > 3; }, 60.0)) << errors();
   }
   long rows() const {
