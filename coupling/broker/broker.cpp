@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <deque>
+#include <future>
 #include <optional>
 #include <set>
 
@@ -57,6 +58,7 @@ class BrokerLoop {
       unreachable_.clear();
       while (auto arrival = router_.receive()) handle(read(std::move(*arrival)));
       for (const std::string& address : lost_) handle(Disconnected{address});
+      if (auto written = written_within(0ms)) handle(*written);
       if (const double time = now(); time - ticked_ >= std::chrono::duration<double>(tick).count()) {
         ticked_ = time;
         handle(Tick{});
@@ -71,6 +73,7 @@ class BrokerLoop {
  private:
   /// After a failure the others may still be writing: once they have gone, what is unfinished is removed.
   void see_off() {
+    if (disk_.valid()) disk_.wait();
     if (!state_.failure || !checkpoints_) return;
     std::set<std::string> here;
     for (const Peer& peer : state_.peers)
@@ -114,7 +117,10 @@ class BrokerLoop {
   std::optional<SessionEvent> carry_out(SessionAction& action) {
     if (auto* send = std::get_if<Send>(&action)) return deliver(*send);
     if (auto* announce = std::get_if<Announce>(&action)) return print(announce->what);
-    if (auto* half = std::get_if<Commit>(&action)) return commit(half->state);
+    if (auto* half = std::get_if<Commit>(&action)) {
+      disk_ = std::async(std::launch::async, [this, state = std::move(half->state)] { return commit(state); });
+      return written_within(tick);
+    }
     if (!code_) code_ = std::get<Finish>(action).code;
     return std::nullopt;
   }
@@ -149,13 +155,20 @@ class BrokerLoop {
     }
   }
 
-  SessionEvent commit(const InterfaceState& state) {
+  /// On a thread of its own: a disk may take longer than the silence that the others allow.
+  SessionEvent commit(const InterfaceState& state) const {
     try {
       checkpoints_->commit(state);
       return Committed{};
     } catch (const Stop& stop) {
       return DiskFailed{stop.what()};
     }
+  }
+
+  /// How the checkpoint that is being written has ended, if it has.
+  std::optional<SessionEvent> written_within(std::chrono::milliseconds time) {
+    if (!disk_.valid() || disk_.wait_for(time) != std::future_status::ready) return std::nullopt;
+    return disk_.get();
   }
 
   std::optional<SessionEvent> print(const Announcement& what) {
@@ -181,6 +194,7 @@ class BrokerLoop {
   std::vector<std::string> lost_, unreachable_;  // addresses that have just gone
   double ticked_ = 0.0;
   std::optional<ExitCode> code_;
+  std::future<SessionEvent> disk_;  // last, so that what it uses outlives it
 };
 
 }  // namespace

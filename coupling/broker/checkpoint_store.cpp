@@ -107,7 +107,7 @@ void CheckpointStore::sweep() const {
     if (entry.path().extension() == ".part") files::remove_all(entry.path(), ignored);
 }
 
-void CheckpointStore::commit(const InterfaceState& state) {
+void CheckpointStore::commit(const InterfaceState& state) const {
   const std::string place = folder_of(folder_, state.clock.first), part = place + ".part";
   InterfaceState copy = state;
   std::vector<StoredField> motion = stored(state.motion), load = stored(state.load);

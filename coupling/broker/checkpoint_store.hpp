@@ -22,7 +22,7 @@ class CheckpointStore {
   void sweep() const;
   /// Adds the broker's half, makes the checkpoint count, and removes all but the last two. Throws
   /// Stop(out_of_resources); the earlier ones are untouched then.
-  void commit(const InterfaceState& state);
+  void commit(const InterfaceState& state) const;
 
  private:
   std::string folder_, build_;

@@ -16,9 +16,10 @@ bool is_busy(const Peer& peer) {
       return peer.role == Role::structure;  // the load side waits for the surface
     case Stage::meshed:
     case Stage::computing:
-    case Stage::saving:
     case Stage::finishing:
       return true;
+    case Stage::saving:
+      return !peer.saved.has_value();  // else it waits for the broker's disk
     default:
       return false;
   }
@@ -72,6 +73,13 @@ void check_deadlines(SessionTurn& turn) {
   }
 }
 
+/// Both sides have saved, and the broker's half is not on disk yet.
+bool broker_is_writing(const SessionState& state) {
+  return !state.peers.empty() && std::all_of(state.peers.begin(), state.peers.end(), [](const Peer& peer) {
+    return peer.stage == Stage::saving && peer.saved.has_value();
+  });
+}
+
 void notice_waiting(SessionTurn& turn) {
   SessionState& state = turn.state;
   announce::Waiting waiting;
@@ -81,7 +89,11 @@ void notice_waiting(SessionTurn& turn) {
   if (state.clock.windows > 0) {
     begin = turn.now;
     for (const Peer& peer : state.peers)
-      if (peer.stage == Stage::waiting) begin = std::min(begin, peer.stage_since);
+      if (peer.stage == Stage::waiting || peer.stage == Stage::saving) begin = std::min(begin, peer.stage_since);
+  }
+  if (broker_is_writing(state)) {
+    waiting.names.push_back("broker");
+    waiting.stage += "broker: writing a checkpoint; ";
   }
   for (const Peer& peer : state.peers) {
     if (!is_busy(peer)) continue;

@@ -48,6 +48,9 @@ inline bool holds(const std::string& text, const std::string& pattern) {
   return true;
 }
 
+/// The next flush of this process, or of the next one forked from it, takes so long: a disk that stalls.
+void stall_next_flush(double seconds);
+
 /// The body of a participant returns as if its work were done.
 struct Left {};
 
@@ -58,14 +61,17 @@ class FaultScene {
     broker.rules.window = {WindowRule::Kind::fixed, 0.025};
     broker.rules.checkpoint = {run_.folder + "/checkpoint", 0.0, 5};
     broker.rules.deadlines.beat_interval = 0.1;
-    if (fault.what == "freeze" || fault.what == "slow" || fault.what == "delay 4") broker.rules.deadlines.beat = 1.5;
+    if (fault.what == "freeze" || fault.what.starts_with("slow") || fault.what == "delay 4")
+      broker.rules.deadlines.beat = 1.5;
     if (fault.what == "stuck") broker.rules.deadlines.progress = 0.5;
     if (fault.when.starts_with("HELLO")) broker.rules.deadlines.join = 1.0;
   }
 
   /// Starts everyone, the one with the fault last.
   void start() {
+    if (fault_.who == "broker" && fault_.what == "slow disk") stall_next_flush(longer_than_silence);
     broker_.emplace(run_.start_broker());
+    stall_next_flush(0.0);
     broker_pid_ = broker_->pid();
     const bool structure_first = fault_.who != "structure";
     const auto join = [&](bool structure) {
@@ -91,6 +97,8 @@ class FaultScene {
   }
 
  private:
+  static constexpr double longer_than_silence = 2.5;  // s; 1.5 s are allowed
+
   ParticipantOptions options(Role role) {
     ParticipantOptions given = run_.options(role);
     given.keeps = true;
@@ -118,7 +126,8 @@ class FaultScene {
     if (fault_.what == "sigint") kill(victim, SIGINT);
     if (fault_.what == "crash") signal(SIGSEGV, SIG_DFL), raise(SIGSEGV);
     if (fault_.what == "stuck") sleep(60.0);
-    if (fault_.what == "slow") sleep(2.5);
+    if (fault_.what == "slow") sleep(longer_than_silence);
+    if (fault_.what == "slow disk" && fault_.who != "broker") stall_next_flush(longer_than_silence);
     if (fault_.what == "guard") throw Stop(ExitCode::guard, "energy has grown by 12 %: use a smaller step");
     if (fault_.what == "memory") throw std::bad_alloc();
     if (fault_.what == "exit") _exit(0);

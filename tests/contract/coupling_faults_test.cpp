@@ -2,9 +2,29 @@
 // exit code of the first failure and the same first cause; nothing is left; and every checkpoint that counts can be
 // read. The faults are the lines of faults.csv. The ten seconds are the contract's; deadlines of the session are
 // shortened where a fault is only found by one. Nothing else is a tolerance.
+#include <atomic>
+
+#include <sys/syscall.h>
+
 #include "tests/contract/coupling_fault_scene.hpp"
 
 namespace standoff::test {
+namespace {
+
+std::atomic<double> stall = 0.0;  // s
+
+}  // namespace
+
+void stall_next_flush(double seconds) {
+  stall = seconds;
+}
+
+/// In this program in place of the one of the system, which it calls.
+extern "C" int fsync(int file) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(stall.exchange(0.0)));
+  return static_cast<int>(syscall(SYS_fsync, file));
+}
+
 namespace {
 
 class Fault : public testing::TestWithParam<test::Fault> {
