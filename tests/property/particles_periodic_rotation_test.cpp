@@ -7,7 +7,7 @@
 // the books of energy close within half a percent, as in particles_rotation_books_test.cpp.
 #include <gtest/gtest.h>
 
-#include "tests/unit/case_folder.hpp"
+#include "tests/unit/particles_periodic_case.hpp"
 #include "tests/unit/particles_periodic_scenes.hpp"
 #include "tests/unit/particles_side.hpp"
 #include "tests/unit/particles_turning_builders.hpp"
@@ -62,42 +62,9 @@ TEST(PeriodicRotation, GrainsThatRub_TurnAcrossFacesAsInTheMiddle) {
   }
 }
 
-CaseSpec periodic_sand() {
-  standoff::test::CaseFolder folder;
-  folder.write("case.toml", R"([charge]
-explosive = "c4"
-mass = "150 g"
-radius = "28.2 mm"
-particles = 400
-[plate]
-material = "al6xn"
-size = ["100 mm", "100 mm", "3.4 mm"]
-surround = "rigid"
-surround_size = "300 mm"
-[domain]
-size = ["0.25 m", "0.25 m", "1.25 m"]
-boundaries = "periodic"
-[run]
-stand_off = "80 mm"
-until = "0.2 ms"
-symmetry = "none"
-[contact]
-surface_friction = 0.3
-[soil]
-kind = "dry"
-inner_radius = "30 mm"
-outer_radius = "76.2 mm"
-particles = 1500
-[effects]
-grain_rotation = "on"
-)");
-  const CaseRead read = folder.read();
-  EXPECT_TRUE(read.errors.empty()) << standoff::test::all_errors(read);
-  return read.spec;
-}
-
 TEST(PeriodicRotation_OfSandThatIsThrownThroughFaces, KeepsTheBooksAndNoThreadOrStopChangesABit) {
-  const CaseSpec spec = periodic_sand();
+  const CaseSpec spec = periodic_case("dry", "[contact]\nsurface_friction = 0.3\n[effects]\ngrain_rotation = \"on\"\n",
+                                      {{"run.stand_off", "80 mm"}});
   Side whole(spec, 1, flat_mesh(4, 0.05, 1e-2));
   ParticleLedger ledger;
   ledger.open(whole.loop.energy(), whole.loop.momentum_everywhere());
