@@ -10,8 +10,8 @@ namespace standoff::structure {
 
 /// update_points, point q in the lower and q + 1 in the upper half; the last of an odd number stands in both.
 template <class Law>
-ElementSums<Pack4> update_pairs(const MetalParameters& metal, const PointStep& step, bool commit, int points,
-                                const double* weight, Pack4* gradient, Pack4* history) {
+[[gnu::flatten]] ElementSums<Pack4> update_pairs(const MetalParameters& metal, const PointStep& step, bool commit,
+                                                 int points, const double* weight, Pack4* gradient, Pack4* history) {
   ElementSums<Pack4> sums{Pack4(0.0), Pack4(0.0), Lanes<Pack4>::all_true()};
   for (int q = 0; q < points; q += 2) {
     const int r = q + 1 < points ? q + 1 : q;

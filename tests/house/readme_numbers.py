@@ -9,7 +9,7 @@ A block is what stands between `<!-- numbers: COMMAND INPUT ... -->` and `<!-- e
     result RUN                  one run beside the figures of the case's reference.toml, with its certificate
     cell   CELL ...             folders of `standoff cell`: packing of each, then modulus and lateral stress against strain
     faults FAULTS.csv SOAK.csv  the table of faults with how often each was done and how long the longest took
-    hard   RESULTS.json         the hard cases: what is known of other codes, what ours does, figures of hard_cases.py --keep
+    hard   RESULTS.json ...     the hard cases: what is known of other codes, what ours does, figures of hard_cases.py --keep, a file a level
     wall   RUN ...              cylinder tests: velocity of the wall when it has gone so far, a row per station and run
     effects STUDY/cost-effects.csv   a row per effect turned round: what changes against the case as it is, paired by seed
     cost   STUDY/cost.csv ...   a row per level of each study, with its name: mean and spread over seeds, seconds
@@ -245,14 +245,16 @@ HARD_FIGURES = [("energy_error_particles", "energy of the particles", "{:.1e}"),
                 ("max_overlap_over_radius", "largest overlap / radius", "{:.2f}")]
 
 
-def hard(copy):
+def hard(copy, *others):
+    """One table of the levels, figures side by side."""
     rows = [["case", "known of other codes", "ours", "exit", *(title for _, title, _ in HARD_FIGURES)]]
-    for name, found in json.loads(copy.read_text()).items():
+    levels = [json.loads(level.read_text()) for level in (copy, *others)]
+    for name in levels[0]:
         folder = copy.parent.parent / name
         outcome = tomllib.loads((folder / "outcome.toml").read_text())
         title = tomllib.loads((folder / "case.toml").read_text())["case"]["title"]
         rows.append([f"[{title}]({name})", outcome["others"], outcome["ours"], str(outcome["exit"]),
-                     *(form.format(found[key]) if key in found else "" for key, _, form in HARD_FIGURES)])
+                     *(" / ".join(form.format(level[name][key]) for level in levels if key in level[name]) for key, _, form in HARD_FIGURES)])
     tests = tomllib.loads((copy.parent.parent / "tests.toml").read_text())["test"]
     more = [["situation", "known of other codes", "ours", "test"]]
     more += [[test["title"], test["others"], test["ours"], f"[{pathlib.Path(test['file']).name}](../../{test['file']})"] for test in tests]
