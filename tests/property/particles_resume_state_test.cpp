@@ -96,7 +96,8 @@ TEST(ResumedParticles, StateOfAnotherSurface_IsRefused) {
   const SurfaceMesh other = test::sheet_mesh(4, 0.0, 0.203, 1e-2, [](double x, double y) { return Vec3{x, y, 0.0}; });
   Scene scene = build_scene(spec, other, 1);
   TimeLoop loop(spec, scene, 1);
-  StateReader reader(side.saved());
+  const std::string saved = side.saved();
+  StateReader reader(saved);
   try {
     reader(loop);
     FAIL() << "a sheet of 81 nodes was read as one of 25";
