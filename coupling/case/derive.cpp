@@ -20,8 +20,8 @@ class Completion {
     for (const std::string& section : section_names())
       if (section != "case" && section != "soil" && section != "cell" && section != "run" && section != "effects")
         s_.forget_section(section);
-    for (const std::string& name : effect_names())
-      if (!is_of_the_soil(name)) s_.forget("effects." + name);
+    for (const Effect& effect : effect_rules())
+      if (!effect.in_a_cell) s_.forget(std::string("effects.") + effect.name);
     cell_only_ = true;
     const std::string soil = s_.word("soil.kind");
     has_soil_ = soil == "dry" || soil == "wet";
@@ -144,10 +144,6 @@ class Completion {
     }
   }
 
-  /// Effects of grains on each other: a cell of them has these, too.
-  static bool is_of_the_soil(const std::string& effect) {
-    return effect == "friction" || effect == "grain_rotation" || effect == "damping" || effect == "radius_spread";
-  }
   static bool belongs_to_a_cell(const std::string& path) {
     return path.starts_with("soil.") || path.starts_with("cell.") || path == "run.seed";
   }

@@ -7,7 +7,8 @@
 
 namespace standoff::structure {
 
-inline constexpr int most_fields = 10;  // of the history of a point
+/// Of the history of a point, with every effect on.
+inline constexpr int most_fields = Metal<Hardening::power, RateLaw::power, true, true>::fields;
 
 template <class T>
 struct ElementSums {

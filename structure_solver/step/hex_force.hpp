@@ -1,7 +1,7 @@
 #pragma once
 // Internal force of one hexahedron with N x N x N nodes and Gauss points, or of four side by side (T = Pack4):
 //   f = sum_q w_q P(H_q) grad N
-// Total Lagrangian: gradients and weights belong to the shape at rest. What the metal answers is asked of `metal`, a
+// Total Lagrangian: gradients and weights belong to the shape at rest. What the metal answers is asked of `answer`, a
 // function of (points, weight, gradient in, stress out): gauss_points.hpp.
 //
 // DATA LAYOUT  u, force: T[3][N^3] (component, node). gradient: T[3][3][N^3], in place from parametric gradient to
@@ -12,9 +12,9 @@
 namespace standoff::structure {
 
 /// Force at displacement u.
-template <class T, class Geometry, class Metal>
+template <class T, class Geometry, class Answer>
 inline ElementSums<T> hex_force_of(const Geometry& geometry, const T (&u)[3][Geometry::nodes],
-                                   T (&force)[3][Geometry::nodes], Metal&& metal) {
+                                   T (&force)[3][Geometry::nodes], Answer&& answer) {
   constexpr int N = Geometry::per_edge, points = Geometry::nodes;
   T gradient[3][3][points];
   T* const first = &gradient[0][0][0];
@@ -24,7 +24,7 @@ inline ElementSums<T> hex_force_of(const Geometry& geometry, const T (&u)[3][Geo
     weight[q] = geometry.weight(q);
     store_gradient(geometry.reference_gradient(q, load_gradient(first, points, q)), first, points, q);
   }
-  const ElementSums<T> sums = metal(points, weight, first);
+  const ElementSums<T> sums = answer(points, weight, first);
   for (int q = 0; q < points; ++q)
     store_gradient(geometry.weighted(q, load_gradient(first, points, q)), first, points, q);
   for (int c = 0; c < 3; ++c) hex_gradient_transpose<N>(gradient[c][0], gradient[c][1], gradient[c][2], force[c]);

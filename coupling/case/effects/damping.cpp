@@ -29,6 +29,7 @@ Effect damping() {
       .find = find,
       .cost = cost,
       .leave_out = [](CaseSpec& spec) { spec.soil.damping = 0.0; },
+      .in_a_cell = true,
       .columns = {"damping_loss_J"},
   };
 }

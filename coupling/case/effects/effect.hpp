@@ -44,6 +44,7 @@ struct Effect {
   void (*leave_out)(CaseSpec&) = nullptr;  // takes it out of the specification, where solvers do not ask for it
   const char* needs = nullptr;             // the effect without which this one has nothing to act on
   bool inherent = false;                   // cannot be left out of a scene that calls for it
+  bool in_a_cell = false;                  // acts between grains at rest, too: a unit cell of sand has it
   const char* switched_by = nullptr;       // the key that turns it on where [effects] alone cannot
   // What exists for this effect alone and is absent without it: stages of the time loops, columns of histories.csv,
   // keys of run.json's results.

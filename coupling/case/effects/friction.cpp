@@ -31,6 +31,7 @@ Effect friction() {
       .find = find,
       .cost = cost,
       .leave_out = [](CaseSpec& spec) { spec.soil.friction = 0.0; },
+      .in_a_cell = true,
       .columns = {"friction_loss_J"},
   };
 }

@@ -41,6 +41,7 @@ Effect grain_rotation() {
       .find = find,
       .cost = cost,
       .needs = "friction",
+      .in_a_cell = true,
       .stages = {"grain_rotation"},
       .columns = {"sand_rotation_J"},
   };

@@ -28,6 +28,7 @@ Effect radius_spread() {
       .find = find,
       .cost = cost,
       .leave_out = [](CaseSpec& spec) { spec.soil.radius_spread = 0.0; },
+      .in_a_cell = true,
   };
 }
 
